@@ -43,15 +43,14 @@ std::map<std::uint32_t, Selection::Ops> networks_of(const Facts& facts, const Ro
   return all;
 }
 
-std::optional<Selection::Ops> find_network(const std::string& word, std::string_view number, const Routine& routine,
-                                           const Facts& facts, std::string& why) {
+Result<Selection::Ops> find_network(const std::string& word, std::string_view number, const Routine& routine,
+                                    const Facts& facts) {
   const auto networks = networks_of(facts, routine);
   const auto wanted = parse_decimal<std::uint32_t>(number);
   const auto found = wanted ? networks.find(*wanted) : networks.end();
   if (found != networks.end()) return Selection::Ops{word, found->second.first, found->second.end};
-  why = fmt::format("{} has no network '{}'; it has {}", routine_text(routine), stl::shortened(number),
-                    stl::joined(networks, [](const auto& each) { return std::to_string(each.first); }));
-  return {};
+  return trouble("{} has no network '{}'; it has {}", routine_text(routine), stl::shortened(number),
+                 stl::joined(networks, [](const auto& each) { return std::to_string(each.first); }));
 }
 
 /// What is probably meant by a word that is neither an address nor a routine.
@@ -66,27 +65,26 @@ std::string unknown_text(const std::string& word, const Facts& facts, const std:
   return fmt::format("{}; or a routine: {}", not_an_address, routines_text(facts));
 }
 
-bool add_word(const std::string& word, const Facts& facts, Selection& selection, std::string& why) {
+Result<> add_word(const std::string& word, const Facts& facts, Selection& selection) {
   const std::size_t colon = word.rfind(':');
-  if (const Routine* routine = find_routine(word, facts))
-    return selection.ops.push_back({word, routine->first, routine->end}), true;
+  if (const Routine* routine = find_routine(word, facts)) {
+    selection.ops.push_back({word, routine->first, routine->end});
+    return {};
+  }
   const Routine* routine = colon == std::string::npos ? nullptr : find_routine(word.substr(0, colon), facts);
   if (routine) {
-    const auto network = find_network(word, std::string_view(word).substr(colon + 1), *routine, facts, why);
-    if (network) selection.ops.push_back(*network);
-    return network.has_value();
+    const auto network = find_network(word, std::string_view(word).substr(colon + 1), *routine, facts);
+    if (!network) return network.trouble();
+    selection.ops.push_back(*network);
+    return {};
   }
-  std::string not_an_address;
-  const auto range = parse_range(word, facts.program, not_an_address);
-  if (!range) {
-    why = unknown_text(word, facts, not_an_address);
-    return false;
-  }
+  const auto range = parse_range(word, facts.program);
+  if (!range) return Trouble{unknown_text(word, facts, range.why())};
   const std::uint64_t first = std::uint64_t{range->at} * 8;
   const bool bit = range->width == Width::Bit;
   selection.memory.push_back(
       {word, as_named(bit ? Bits{first + range->bit, 1} : Bits{first, std::uint64_t{range->bytes()} * 8})});
-  return true;
+  return {};
 }
 
 }  // namespace
@@ -99,10 +97,10 @@ bool Selection::has_op(std::uint32_t op) const {
   return std::ranges::any_of(ops, [&](const Ops& each) { return op >= each.first && op < each.end; });
 }
 
-std::optional<Selection> parse_selection(std::span<const std::string> words, const Facts& facts, std::string& why) {
+Result<Selection> parse_selection(std::span<const std::string> words, const Facts& facts) {
   Selection selection;
   for (const std::string& word : words)
-    if (!add_word(word, facts, selection, why)) return {};
+    if (const auto done = add_word(word, facts, selection); !done) return done.trouble();
   return selection;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "interpreter/analysis/effects/facts.hpp"
+#include "interpreter/base/result.hpp"
 
 namespace s7200 {
 
@@ -32,8 +33,8 @@ struct Selection {
 };
 
 /// Words such as `VW10`, `VB0:16`, `Speed`, `MAIN`, `SBR_3`, `INT0`, `SBR_3:2` for a network of it, or the name of a block.
-/// Returns nothing and sets `why`, with what is near, if a word is none of these.
-std::optional<Selection> parse_selection(std::span<const std::string> words, const Facts& facts, std::string& why);
+/// Trouble with what is near, if a word is none of these.
+Result<Selection> parse_selection(std::span<const std::string> words, const Facts& facts);
 
 /// `MAIN`, `SBR_3`, `INT_0`: the name that Micro/WIN gives a routine.
 std::string routine_text(const Routine& routine);

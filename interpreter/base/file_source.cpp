@@ -5,15 +5,12 @@
 
 namespace s7200 {
 
-bool FileSource::exists(const std::string& path) const {
-  std::string why;
-  return read(path, why).has_value();
-}
+bool FileSource::exists(const std::string& path) const { return read(path).has_value(); }
 
-std::optional<std::string> FileSource::read_text(const std::string& path, std::string& why) const {
-  auto text = read(path, why);
+Result<std::string> FileSource::read_text(const std::string& path) const {
+  auto text = read(path);
   if (!text) return text;
-  if (auto converted = stl::from_marked_utf16(*text)) return converted;
+  if (auto converted = stl::from_marked_utf16(*text)) return *std::move(converted);
   text->erase(0, text->size() - stl::without_byte_order_mark(*text).size());
   return text;
 }

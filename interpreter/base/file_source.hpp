@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "interpreter/base/result.hpp"
+
 namespace s7200 {
 
 /// Reads files by their names.
@@ -13,15 +15,15 @@ class FileSource {
  public:
   virtual ~FileSource() = default;
 
-  /// The bytes of a file. Returns nothing and sets `why` if it cannot be read.
-  virtual std::optional<std::string> read(const std::string& path, std::string& why) const = 0;
+  /// The bytes of a file. Trouble if it cannot be read.
+  virtual Result<std::string> read(const std::string& path) const = 0;
 
   /// Whether there is a file of this name, be it that it cannot be read.
   virtual bool exists(const std::string& path) const;
 
   /// A text in UTF-8, without the byte order mark that some editors put before it; UTF-16 with its mark is converted.
-  /// Returns nothing and sets `why` like read().
-  std::optional<std::string> read_text(const std::string& path, std::string& why) const;
+  /// Trouble like read().
+  Result<std::string> read_text(const std::string& path) const;
 };
 
 /// Whether a path means standard input: "-" and its names in Linux. What comes through a pipe can be read only once.

@@ -50,24 +50,23 @@ bool is_ipv6_address(std::string_view text) {
   return before && after && *before + *after < 8 && front.find('.') == std::string_view::npos;
 }
 
-std::optional<ListenAddress> parse_listen_address(const std::string& text, std::string& why) {
+Result<ListenAddress> parse_listen_address(const std::string& text) {
   ListenAddress address;
   const std::size_t colon = text.rfind(':');
   const std::string port = colon == std::string::npos ? text : text.substr(colon + 1);
   std::string host = colon == std::string::npos ? "" : text.substr(0, colon);
   if (host.size() >= 2 && host.front() == '[' && host.back() == ']') {
     host = host.substr(1, host.size() - 2);
-    if (!is_ipv6_address(host)) why = fmt::format("'{}' is not an IPv6 address", stl::shortened(host));
+    if (!is_ipv6_address(host)) return trouble("'{}' is not an IPv6 address", stl::shortened(host));
   } else if (host.find(':') != std::string::npos) {
-    why = fmt::format("write an IPv6 address in brackets, as [{}]:{}", host, port);
+    return trouble("write an IPv6 address in brackets, as [{}]:{}", host, port);
   } else if (stl::lower_case(host) == "localhost") {
     host.clear();
   } else if (!host.empty() && !is_ipv4_address(host)) {
-    why = fmt::format("'{}' is not an IP address", stl::shortened(host));
+    return trouble("'{}' is not an IP address", stl::shortened(host));
   }
   const auto number = parse_decimal<std::uint16_t>(port);
-  if (why.empty() && !number) why = fmt::format("'{}' is not a port from 0 to 65535", stl::shortened(port));
-  if (!why.empty()) return {};
+  if (!number) return trouble("'{}' is not a port from 0 to 65535", stl::shortened(port));
   address.port = *number;
   if (!host.empty()) address.host = host;
   return address;

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "interpreter/base/result.hpp"
+
 namespace s7200 {
 
 struct ListenAddress {
@@ -17,8 +19,8 @@ struct ListenAddress {
 bool is_ipv4_address(std::string_view text);
 bool is_ipv6_address(std::string_view text);
 
-/// Returns nothing and sets `why` for anything else.
-std::optional<ListenAddress> parse_listen_address(const std::string& text, std::string& why);
+/// Trouble for anything else.
+Result<ListenAddress> parse_listen_address(const std::string& text);
 
 /// An address as text: `127.0.0.1:502`, `[::1]:502`
 std::string to_text(const ListenAddress& address);

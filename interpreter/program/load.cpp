@@ -169,11 +169,9 @@ std::optional<SourceText> read_plain(std::string_view text, const std::string& n
 
 /// The length of the mnemonic in a line without the blank after it, `LDI0.0`; 0 if it is something else.
 std::size_t mnemonic_without_blank(std::string_view code) {
-  std::string why;
   for (std::size_t length = std::min<std::size_t>(code.size(), 6); length > 0; --length) {
-    const auto operand = find_instruction(stl::upper_case(code.substr(0, length)))
-                             ? stl::parse_operand(code.substr(length), why)
-                             : std::nullopt;
+    const auto operand =
+        find_instruction(stl::upper_case(code.substr(0, length))) ? stl::parse_operand(code.substr(length)) : std::nullopt;
     const auto* const address = operand ? std::get_if<stl::Address>(&operand->value) : nullptr;
     if (address && address->size != stl::Size::None) return length;
   }
@@ -315,31 +313,22 @@ SourceText join_files(std::vector<SourceText> files) {
 /// More than any program, with all the text around it: it would be read for seconds, and need 200 bytes for each byte.
 constexpr std::size_t kLargestProgram = 4 << 20;
 
-std::optional<SourceText> read_source(std::string_view bytes, const std::string& name, std::string& why,
-                                      bool force_document) {
-  if (bytes.size() > kLargestProgram) {
-    why = fmt::format("it is larger than {} MB, more than any program", kLargestProgram >> 20);
-    return {};
-  }
-  const auto decoded = stl::decode(bytes, why);
+Result<SourceText> read_source(std::string_view bytes, const std::string& name, bool force_document) {
+  if (bytes.size() > kLargestProgram)
+    return trouble("it is larger than {} MB, more than any program", kLargestProgram >> 20);
+  const auto decoded = stl::decode(bytes);
   if (!decoded) {
     if (stl::upper_case(name).ends_with(".MWP"))
-      why = "it is a Micro/WIN project; open it in Micro/WIN and export each block (File, Export) as .awl";
-    return {};
+      return Trouble{"it is a Micro/WIN project; open it in Micro/WIN and export each block (File, Export) as .awl"};
+    return decoded.trouble();
   }
-  if (const std::string_view wrapped = why_wrapped(decoded->text); !wrapped.empty()) {
-    why = wrapped;
-    return {};
-  }
+  if (const std::string_view wrapped = why_wrapped(decoded->text); !wrapped.empty()) return Trouble{std::string(wrapped)};
   const auto inside = stl::program_in_strings(decoded->text);
   const stl::PlainText plain(inside ? inside->text : decoded->text);
   const auto cpu_line = place_of_cpu_line(plain.text());
   auto source = cpu_line ? read_plain(std::string(plain.text()).insert(*cpu_line, "// "), name, force_document)
                          : read_plain(plain.text(), name, force_document);
-  if (!source) {
-    why = why_not_stl(plain.text());
-    return {};
-  }
+  if (!source) return Trouble{why_not_stl(plain.text())};
   if (source->kind == SourceKind::Listing || source->as_document()) stl::name_drawings(source->parsed, instruction_set());
   if (!plain.symbols().empty() && kind_of_table(plain.symbols()) == SourceKind::SymbolTable)
     std::ranges::move(stl::read_symbol_table(plain.symbols(), name).source.symbols,
@@ -347,7 +336,7 @@ std::optional<SourceText> read_source(std::string_view bytes, const std::string&
   plain.restore(source->parsed);
   if (inside) source->parsed.notes.push_back(fmt::format("{}: {}", name, inside->note));
   source->encoding = decoded->encoding;
-  return source;
+  return *std::move(source);
 }
 
 stl::ParseResult read_text(std::string_view utf8, const std::string& name) {

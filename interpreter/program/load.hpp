@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/program/checking/checker.hpp"
 
 namespace s7200 {
@@ -25,9 +26,8 @@ struct SourceText {
   bool is_program() const;
 };
 
-/// Returns nothing and sets `why` if the bytes are not text, or are some other text.
-std::optional<SourceText> read_source(std::string_view bytes, const std::string& name, std::string& why,
-                                      bool force_document = false);
+/// Trouble if the bytes are not text, or are some other text.
+Result<SourceText> read_source(std::string_view bytes, const std::string& name, bool force_document = false);
 
 /// The files of a project as one source, named after the first of them that is a program. There is at least one.
 SourceText join_files(std::vector<SourceText> files);

@@ -487,8 +487,7 @@ std::optional<Number> number_of(std::string_view digits, int base = 10) {
 std::size_t read_ascii(std::string_view rest, std::string& bytes) {
   if (static_cast<unsigned char>(rest.front()) >= 0x80) {
     const std::size_t length = first_character(rest).bytes;
-    std::string why;
-    const auto byte = encode(rest.substr(0, length), "Windows-1252", why);
+    const auto byte = encode(rest.substr(0, length), "Windows-1252");
     if (byte) bytes += *byte;
     return byte ? length : 0;
   }
@@ -1198,12 +1197,11 @@ ParseResult parse(std::string_view text, std::string name) {
   return result;
 }
 
-std::optional<std::string> parse_characters(std::string_view text, std::string& why) {
+Result<std::string> parse_characters(std::string_view text) {
   std::string bytes;
   const std::string_view bad = read_characters(text, bytes);
   if (bad.empty()) return bytes;
-  why = fmt::format("{} is not allowed in a text; {}", describe(bad), kEscapes);
-  return std::nullopt;
+  return trouble("{} is not allowed in a text; {}", describe(bad), kEscapes);
 }
 
 std::string several_statements(const std::vector<std::string>& later) {
@@ -1216,14 +1214,14 @@ std::string new_lines_with(const std::vector<std::string>& later) {
                            : fmt::format("begin new lines with {} and {}", fmt::join(later.begin(), last, ", "), *last);
 }
 
-std::optional<Operand> parse_operand(std::string_view text, std::string& why) {
+Result<Operand> parse_operand(std::string_view text) {
   ParseResult result;
   const JoinedLines line{text, {}, {{0, 1}}};
   auto operand = LineReader(line, result).read_operand();
   std::erase_if(result.diagnostics, [](const Diagnostic& d) { return d.cause == kGermanAddresses; });
-  if (result.diagnostics.empty()) return operand;
-  why = result.diagnostics.front().message;
-  return std::nullopt;
+  if (!result.diagnostics.empty()) return Trouble{result.diagnostics.front().message};
+  if (!operand) return std::nullopt;
+  return *std::move(operand);
 }
 
 }  // namespace s7200::stl

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "interpreter/base/diagnostic.hpp"
+#include "interpreter/base/result.hpp"
 #include "interpreter/stl/ast.hpp"
 
 namespace s7200::stl {
@@ -33,10 +34,10 @@ ParseResult parse(std::string_view text, std::string name);
 std::string several_statements(const std::vector<std::string>& later);
 std::string new_lines_with(const std::vector<std::string>& later);
 
-/// Reads a text that is one operand, with a German address as well. Returns nothing and sets `why` if it is not.
-std::optional<Operand> parse_operand(std::string_view text, std::string& why);
+/// Reads a text that is one operand, with a German address as well. Trouble if it is not.
+Result<Operand> parse_operand(std::string_view text);
 
 /// The bytes of a text between quotes: `AB$0D$L`.
-std::optional<std::string> parse_characters(std::string_view text, std::string& why);
+Result<std::string> parse_characters(std::string_view text);
 
 }  // namespace s7200::stl

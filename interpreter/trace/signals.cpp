@@ -35,47 +35,43 @@ Signal level_signal(std::uint8_t port, std::string_view of, PortLevel level) {
   return {.kind = Signal::Kind::Level, .name = fmt::format("{}{}.{}", kPort, port, of), .port = port, .level = level};
 }
 
-/// `PORT0.TXD` or `PORT0`. Nothing without a `why` for a name of another kind.
-std::optional<Signal> level_of(const std::string& name, const AddressSpace& space, std::string& why) {
+/// `PORT0.TXD` or `PORT0`. Nothing to say of a name of another kind.
+Result<Signal> level_of(const std::string& name, const AddressSpace& space) {
   const std::string upper = stl::upper_case(name);
-  if (!upper.starts_with(kPort)) return {};
+  if (!upper.starts_with(kPort)) return std::nullopt;
   const std::size_t dot = std::min(upper.find('.'), upper.size());
   const auto port = parse_decimal<std::uint8_t>(std::string_view(upper).substr(kPort.size(), dot - kPort.size()));
-  if (!port) return {};
+  if (!port) return std::nullopt;
   if (*port >= space.model.ports)
-    return why = fmt::format("{}: the CPU {} has no port {}", stl::shortened(name), space.model.name, *port), std::nullopt;
+    return trouble("{}: the CPU {} has no port {}", stl::shortened(name), space.model.name, *port);
   if (dot == upper.size()) return Signal{.kind = Signal::Kind::Levels, .name = name, .port = *port};
   for (const auto& [of, level] : kLevels)
     if (upper.substr(dot + 1) == of) return level_signal(*port, of, level);
-  why = fmt::format("{}: the levels of a port are RXD, TXD and LINE", stl::shortened(name));
-  return {};
+  return trouble("{}: the levels of a port are RXD, TXD and LINE", stl::shortened(name));
 }
 
-std::optional<Signal> signal_of(const std::string& name, const AddressSpace& space, std::string& why) {
-  if (auto interrupt = interrupt_of(name)) return interrupt;
-  if (auto level = level_of(name, space, why); level || !why.empty()) return level;
-  const auto place = parse_range(name, space, why);
-  if (!place) return {};
+Result<Signal> signal_of(const std::string& name, const AddressSpace& space) {
+  if (auto interrupt = interrupt_of(name)) return *interrupt;
+  if (auto level = level_of(name, space); level || !level.why().empty()) return level;
+  const auto place = parse_range(name, space);
+  if (!place) return place.trouble();
   if (place->count == 1) return Signal{.kind = Signal::Kind::Memory, .name = name, .place = *place};
-  why = fmt::format("{} is several values; name each", stl::shortened(name));
-  return {};
+  return trouble("{} is several values; name each", stl::shortened(name));
 }
 
 }  // namespace
 
-std::optional<std::vector<Signal>> parse_signals(std::string_view text, const AddressSpace& space, std::string& why) {
+Result<std::vector<Signal>> parse_signals(std::string_view text, const AddressSpace& space) {
   std::vector<Signal> signals;
-  why.clear();
   while (!text.empty()) {
     const std::size_t comma = std::min(text.find(','), text.size());
-    const auto signal = signal_of(std::string(stl::trim(text.substr(0, comma))), space, why);
-    if (!signal) return {};
+    const auto signal = signal_of(std::string(stl::trim(text.substr(0, comma))), space);
+    if (!signal) return signal.trouble();
     signals.push_back(*signal);
     text.remove_prefix(std::min(comma + 1, text.size()));
   }
   if (!signals.empty()) return signals;
-  why = "there is no signal; name some, for example Q0.0,VW20,INT";
-  return {};
+  return Trouble{"there is no signal; name some, for example Q0.0,VW20,INT"};
 }
 
 std::vector<Signal> signals_of(const std::vector<Signal>& wanted, const Program& program) {

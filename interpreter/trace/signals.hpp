@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/program/operands/address.hpp"
 
 namespace s7200 {
@@ -35,8 +36,8 @@ struct Signal {
   PortLevel level{};
 };
 
-/// Reads `Q0.0,VW20,VD100:real,Speed,INT123,INT,PORT0.TXD,PORT0`. Returns nothing and sets `why` if one of them is none.
-std::optional<std::vector<Signal>> parse_signals(std::string_view text, const AddressSpace& space, std::string& why);
+/// Reads `Q0.0,VW20,VD100:real,Speed,INT123,INT,PORT0.TXD,PORT0`. Trouble if one of them is none.
+Result<std::vector<Signal>> parse_signals(std::string_view text, const AddressSpace& space);
 
 /// The signals with those that Interrupts and Levels stand for in their places, in the order of their numbers.
 std::vector<Signal> signals_of(const std::vector<Signal>& wanted, const Program& program);

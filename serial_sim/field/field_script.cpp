@@ -111,10 +111,9 @@ class FieldScriptReader {
   }
 
   std::optional<Assignment> assignment(std::string_view address, std::string_view value) {
-    std::string why;
-    const auto range = parse_range(address, space_, why);
+    const auto range = parse_range(address, space_);
     if (!range || range->count != 1) {
-      error(range ? fmt::format("'{}': a row sets one address, without a count", stl::shortened(address)) : why);
+      error(range ? fmt::format("'{}': a row sets one address, without a count", stl::shortened(address)) : range.why());
       return {};
     }
     if (!drivable(*range, address)) return {};

@@ -38,27 +38,22 @@ std::span<const AreaRow> areas() { return kAreas; }
 
 const AreaRow& row_of(Area area) { return kAreas[static_cast<std::size_t>(area)]; }
 
-std::optional<DataAddress> parse_address(std::string_view digits, std::string& why) {
+Result<DataAddress> parse_address(std::string_view digits) {
   const bool only_digits = std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
-  if (!only_digits || digits.size() < 5 || digits.size() > 6) {
-    why = fmt::format("'{}' is not an address of 5 or 6 digits: {}", stl::shortened(digits), known_ranges());
-    return {};
-  }
+  if (!only_digits || digits.size() < 5 || digits.size() > 6)
+    return trouble("'{}' is not an address of 5 or 6 digits: {}", stl::shortened(digits), known_ranges());
   std::uint32_t number = 0;
   std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (number > kAllHolding && number <= kAllHolding + kAddresses)
     return DataAddress{Area::HoldingRegisters, static_cast<std::uint16_t>(number - kAllHolding - 1)};
   for (const AreaRow& row : kAreas) {
-    if (number == row.base || (row.area == Area::HoldingRegisters && number == kAllHolding)) {
-      why = fmt::format("there is no {} {}: this notation counts from 1, the first is {:0{}}", row.singular, digits,
-                        number + 1, digits.size());
-      return {};
-    }
+    if (number == row.base || (row.area == Area::HoldingRegisters && number == kAllHolding))
+      return trouble("there is no {} {}: this notation counts from 1, the first is {:0{}}", row.singular, digits, number + 1,
+                     digits.size());
     if (number > row.base && number <= row.base + kInArea)
       return DataAddress{row.area, static_cast<std::uint16_t>(number - row.base - 1)};
   }
-  why = fmt::format("{} is in no area: {}", digits, known_ranges());
-  return {};
+  return trouble("{} is in no area: {}", digits, known_ranges());
 }
 
 std::string notation(const DataAddress& address) {

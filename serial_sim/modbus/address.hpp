@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "interpreter/base/result.hpp"
 #include "serial_sim/modbus/functions.hpp"
 
 namespace s7200::modbus {
@@ -37,9 +38,9 @@ struct DataAddress {
 
 /// Reads the notation of 5 digits, or 6 with a zero in front: 00001 to 09999 are coils, 10001 to 19999 inputs, 30001 to
 /// 39999 input registers, 40001 to 49999 holding registers; 400001 to 465536 are all holding registers there can be. The
-/// first of each area is address 0 on the wire. Nothing, and `why`, for anything else. A shorter number is not taken for a
+/// first of each area is address 0 on the wire. Trouble for anything else. A shorter number is not taken for a
 /// coil, though only zeros are missing: it might be meant as an address on the wire.
-std::optional<DataAddress> parse_address(std::string_view digits, std::string& why);
+Result<DataAddress> parse_address(std::string_view digits);
 
 /// The address in the notation, as short as possible: 40001, 410000. Empty if the notation does not reach it.
 std::string notation(const DataAddress& address);

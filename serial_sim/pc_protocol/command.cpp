@@ -30,7 +30,7 @@ std::optional<Area> area_of(std::uint16_t word) {
 
 }  // namespace
 
-std::optional<Address> parse_address(std::string_view text, std::string& why) {
+Result<Address> parse_address(std::string_view text) {
   const std::string upper = stl::upper_case(text);
   for (const AreaRow& row : kAreas) {
     const std::string begin = fmt::format("{}B", row.name);
@@ -38,8 +38,7 @@ std::optional<Address> parse_address(std::string_view text, std::string& why) {
     const auto number = parse_decimal<std::uint16_t>(std::string_view(upper).substr(begin.size()));
     if (number) return Address{row.area, *number};
   }
-  why = fmt::format("'{}' is not a byte of I, Q, M or V; write for example VB100", stl::shortened(std::string(text)));
-  return {};
+  return trouble("'{}' is not a byte of I, Q, M or V; write for example VB100", stl::shortened(std::string(text)));
 }
 
 std::string_view area_name(Area area) {

@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/base/result.hpp"
 
 namespace s7200::pc_protocol {
 
@@ -31,8 +32,8 @@ struct Address {
   bool operator==(const Address&) const = default;
 };
 
-/// Reads `VB100`, `MB8`, `IB0`, `QB0` in either case. Returns nothing and sets `why` for anything else.
-std::optional<Address> parse_address(std::string_view text, std::string& why);
+/// Reads `VB100`, `MB8`, `IB0`, `QB0` in either case. Trouble for anything else.
+Result<Address> parse_address(std::string_view text);
 
 /// The name of an area, as in `V`, and of an address, as in `VB100`.
 std::string_view area_name(Area area);

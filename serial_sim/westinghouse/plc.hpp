@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/joined.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "serial_sim/peers/automaton.hpp"
@@ -17,18 +18,18 @@ namespace s7200::westinghouse {
 
 class Plc : public serial::Automaton {
  public:
-  /// A setting, or cells of memory: `key=modify`, `HR1=1234,0001`. Returns false and sets `why` for anything else.
-  virtual bool set(std::string_view text, std::string& why) = 0;
+  /// A setting, or cells of memory: `key=modify`, `HR1=1234,0001`. Trouble for anything else.
+  virtual Result<> set(std::string_view text) = 0;
 
   /// Whether such a text is about cells. Cells are to be set last: the place of some depends on settings.
   virtual bool names_cells(std::string_view text) const = 0;
 
-  /// Whether a master reaches the cells that such a text sets, with the PLC's present settings. Sets `why` if it does not. A
+  /// Whether a master reaches the cells that such a text sets, with the PLC's present settings. Trouble if it does not. A
   /// setting has no cells.
-  virtual bool still_reaches(std::string_view text, std::string& why) const = 0;
+  virtual Result<> still_reaches(std::string_view text) const = 0;
 
-  /// Whether the PLC has the values of such a text. Sets `why` if it does not.
-  virtual bool holds(std::string_view text, std::string& why) const = 0;
+  /// Whether the PLC has the values of such a text. Trouble if it does not.
+  virtual Result<> holds(std::string_view text) const = 0;
 
   /// Whether the PLC hears only with a sync signal beside the data.
   virtual bool needs_sync() const { return false; }
@@ -69,21 +70,22 @@ class PlcOf : public Plc {
     return same_kind != nullptr && *same_kind == self();
   }
 
-  bool set(std::string_view text, std::string& why) final {
+  Result<> set(std::string_view text) final {
     if (const auto cells = parse_cells(text)) {
       const auto [row, fault] = find(*cells);
-      if (!fault.empty()) return why = fault, false;
+      if (!fault.empty()) return Trouble{fault};
       if (row != nullptr) {
-        if (!are_there(*row, *cells, why)) return false;
+        if (const auto done = are_there(*row, *cells); !done) return done.trouble();
         std::uint32_t place = cells->first;
         for (const std::uint32_t value : cells->values) row->write(self(), place++, value);
-        return true;
+        return {};
       }
     }
     const Setting<Self>* setting = nullptr;
-    const auto value = parse(text, setting, why);
-    if (value) setting->set(self(), *value);
-    return value.has_value();
+    const auto value = parse(text, setting);
+    if (!value) return value.trouble();
+    setting->set(self(), *value);
+    return {};
   }
 
   bool names_cells(std::string_view text) const final {
@@ -91,16 +93,16 @@ class PlcOf : public Plc {
     return cells && find(*cells).row != nullptr;
   }
 
-  bool still_reaches(std::string_view text, std::string& why) const final {
+  Result<> still_reaches(std::string_view text) const final {
     const auto cells = parse_cells(text);
     const Found found = cells ? find(*cells) : Found{};
-    return found.row == nullptr || are_there(*found.row, *cells, why);
+    return found.row == nullptr ? Result<>() : are_there(*found.row, *cells);
   }
 
-  bool holds(std::string_view text, std::string& why) const final {
+  Result<> holds(std::string_view text) const final {
     if (const auto cells = parse_cells(text)) {
       const auto [row, fault] = find(*cells);
-      if (!fault.empty()) return why = fault, false;
+      if (!fault.empty()) return Trouble{fault};
       if (row != nullptr) {
         std::string other;
         std::uint32_t place = cells->first;
@@ -109,16 +111,16 @@ class PlcOf : public Plc {
           if (found != value) other += fmt::format("{} {:X} holds {:X}, not {:X}; ", row->name, place, found, value);
           ++place;
         }
-        if (!other.empty()) why = other;
-        return other.empty();
+        if (!other.empty()) return Trouble{other};
+        return {};
       }
     }
     const Setting<Self>* setting = nullptr;
-    const auto value = parse(text, setting, why);
-    if (!value) return false;
+    const auto value = parse(text, setting);
+    if (!value) return value.trouble();
     const std::uint32_t found = setting->get(self());
-    if (found != *value) why = fmt::format("{} is {}", setting->form.name, value_text(setting->form, found));
-    return found == *value;
+    if (found != *value) return trouble("{} is {}", setting->form.name, value_text(setting->form, found));
+    return {};
   }
 
   bool operator==(const PlcOf&) const = default;
@@ -147,36 +149,32 @@ class PlcOf : public Plc {
   }
 
   /// Whether a master reaches these cells.
-  bool are_there(const Cells<Self>& row, const CellsText& text, std::string& why) const {
-    if (!row.last) return true;
+  Result<> are_there(const Cells<Self>& row, const CellsText& text) const {
+    if (!row.last) return {};
     const std::uint32_t last = row.last(self());
     const std::size_t end = text.first - 1 + text.values.size();
-    if (end <= last) return true;
-    why = fmt::format("{0}{1} is not there: {2}={3}; set {2}={1} or more before it", row.name, end, row.last_from, last);
-    return false;
+    if (end <= last) return {};
+    return trouble("{0}{1} is not there: {2}={3}; set {2}={1} or more before it", row.name, end, row.last_from, last);
   }
 
-  static std::optional<std::uint32_t> parse(std::string_view text, const Setting<Self>*& setting, std::string& why) {
+  static Result<std::uint32_t> parse(std::string_view text, const Setting<Self>*& setting) {
     const std::size_t equals = text.find('=');
     const std::string_view name = text.substr(0, equals);
     for (const Setting<Self>& row : Self::settings())
       if (equals != std::string_view::npos && row.form.name == name) {
         setting = &row;
-        return parse_value(row.form, text.substr(equals + 1), why);
+        return parse_value(row.form, text.substr(equals + 1));
       }
     const auto name_of = [](const Setting<Self>& row) { return row.form.name; };
     const auto cell_of = [](const Cells<Self>& row) {
       return fmt::format("{}{}", row.name, row.by_address ? "[ADDRESS]" : "NUMBER");
     };
     const auto cells = parse_cells(fmt::format("{}=0", name));
-    if (cells && find(*cells).row != nullptr) {
-      why = fmt::format("'{0}': cells take hexadecimal values with commas between; write for example {1}=12 or {1}=12,34",
-                        stl::shortened(text), name);
-      return {};
-    }
-    why = fmt::format("'{}' is not a setting of this PLC; there are {}, {}", stl::shortened(text),
-                      stl::joined(Self::settings(), name_of), stl::joined(Self::cells(), cell_of));
-    return {};
+    if (cells && find(*cells).row != nullptr)
+      return trouble("'{0}': cells take hexadecimal values with commas between; write for example {1}=12 or {1}=12,34",
+                     stl::shortened(text), name);
+    return trouble("'{}' is not a setting of this PLC; there are {}, {}", stl::shortened(text),
+                   stl::joined(Self::settings(), name_of), stl::joined(Self::cells(), cell_of));
   }
 };
 

@@ -65,14 +65,13 @@ const PlcRow* find_plc(std::string_view protocol) {
   return found == rows().end() ? nullptr : &*found;
 }
 
-std::unique_ptr<Plc> make_plc(const PlcRow& row, std::string_view model, std::string& why) {
-  if (std::ranges::find(row.models, model) == row.models.end()) {
-    why = fmt::format("'{}' is not a PLC that speaks {} here; there {} {}", stl::shortened(model), row.name,
-                      row.models.size() == 1 ? "is" : "are", fmt::join(row.models, ", "));
-    return nullptr;
-  }
+Result<std::unique_ptr<Plc>> make_plc(const PlcRow& row, std::string_view model) {
+  if (std::ranges::find(row.models, model) == row.models.end())
+    return trouble("'{}' is not a PLC that speaks {} here; there {} {}", stl::shortened(model), row.name,
+                   row.models.size() == 1 ? "is" : "are", fmt::join(row.models, ", "));
   std::unique_ptr<Plc> plc = row.make();
-  if (row.models.size() > 1 && !plc->set(fmt::format("{}={}", kModelSetting, model), why)) return nullptr;
+  if (row.models.size() == 1) return plc;
+  if (const auto done = plc->set(fmt::format("{}={}", kModelSetting, model)); !done) return done.trouble();
   return plc;
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "serial_sim/westinghouse/plc.hpp"
 
 namespace s7200::westinghouse {
@@ -24,8 +25,8 @@ std::span<const PlcRow> plcs();
 /// Returns null if no PLC has this protocol.
 const PlcRow* find_plc(std::string_view protocol);
 
-/// A model that speaks the protocol, in its bench state. Null, and `why`, if it does not.
-std::unique_ptr<Plc> make_plc(const PlcRow& row, std::string_view model, std::string& why);
+/// A model that speaks the protocol, in its bench state. Trouble if it does not.
+Result<std::unique_ptr<Plc>> make_plc(const PlcRow& row, std::string_view model);
 
 /// The settings with their defaults and what they mean, one a line.
 std::string settings_help(const PlcRow& row);

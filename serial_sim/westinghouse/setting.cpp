@@ -52,21 +52,17 @@ std::optional<std::uint32_t> parse_as(const SettingForm& form, std::string_view 
 
 }  // namespace
 
-std::optional<std::uint32_t> parse_value(const SettingForm& form, std::string_view text, std::string& why) {
+Result<std::uint32_t> parse_value(const SettingForm& form, std::string_view text) {
   using enum SettingForm::Notation;
   const auto value = parse_as(form, text);
   const bool drop = form.notation == Drop || form.notation == DropOrNone;
-  if (value && (form.notation == Word || drop || (*value >= form.least && *value <= form.most))) return value;
+  if (value && (form.notation == Word || drop || (*value >= form.least && *value <= form.most))) return *value;
   const std::string shown = stl::shortened(text);
-  if (form.notation == Word)
-    why = fmt::format("{}: '{}' is not one of {}", form.name, shown, fmt::join(form.words, ", "));
-  else if (drop)
-    why = fmt::format("{}: '{}' is not a drop; write highway, drop and subdrop in hex: 00.11.00", form.name, shown);
-  else
-    why = fmt::format("{}: '{}' is not a {} number from {} to {}", form.name, shown,
-                      form.notation == Hex ? "hexadecimal" : "decimal", value_text(form, form.least),
-                      value_text(form, form.most));
-  return {};
+  if (form.notation == Word) return trouble("{}: '{}' is not one of {}", form.name, shown, fmt::join(form.words, ", "));
+  if (drop) return trouble("{}: '{}' is not a drop; write highway, drop and subdrop in hex: 00.11.00", form.name, shown);
+  return trouble("{}: '{}' is not a {} number from {} to {}", form.name, shown,
+                 form.notation == Hex ? "hexadecimal" : "decimal", value_text(form, form.least),
+                 value_text(form, form.most));
 }
 
 std::string value_text(const SettingForm& form, std::uint32_t value) {

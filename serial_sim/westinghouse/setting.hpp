@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/serial_format.hpp"
 
 namespace s7200::westinghouse {
@@ -34,8 +35,8 @@ struct SettingForm {
   std::uint32_t least = 0, most = UINT8_MAX;
 };
 
-/// Returns nothing and sets `why` for what is not a value of the setting.
-std::optional<std::uint32_t> parse_value(const SettingForm& form, std::string_view text, std::string& why);
+/// Trouble for what is not a value of the setting.
+Result<std::uint32_t> parse_value(const SettingForm& form, std::string_view text);
 
 std::string value_text(const SettingForm& form, std::uint32_t value);
 

@@ -21,6 +21,7 @@
 #include <thread>
 
 #include "interpreter/analysis/warnings/check.hpp"
+#include "interpreter/base/result.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tests/support/source_path.hpp"
 #include "tools/bridge/live_run.hpp"
@@ -63,8 +64,8 @@ class Timed final : public tools::Bridge {
  public:
   explicit Timed(std::unique_ptr<Bridge> bridge) : bridge_(std::move(bridge)) {}
 
-  bool start(tools::LiveLine& line, boost::asio::io_context& context, std::string& why) override {
-    const bool started = bridge_->start(line, context, why);
+  Result<> start(tools::LiveLine& line, boost::asio::io_context& context) override {
+    const auto started = bridge_->start(line, context);
     begin_ = line.now();
     moment_ = Clock::now();
     return started;
@@ -156,8 +157,7 @@ int main(int argc, char** argv) {
   using namespace s7200::tools;
   const int exchanges = argc > 1 ? std::atoi(argv[1]) : 1000;
   const std::string path = test::source_path("stl_programs/modbus_slave.stl");
-  std::string why;
-  const auto text = tools::read_file(path, why);
+  const auto text = tools::read_file(path);
   const CpuModel& model = *find_cpu("214");
   const auto program = check_text(*text, path, model, default_times(model)).program;
   const std::string link =
@@ -176,7 +176,7 @@ int main(int argc, char** argv) {
     std::raise(SIGINT);
   });
   LiveRun live(simulation, {}, &bridge);
-  if (!live.start(why)) fmt::print(stderr, "{}\n", why);
+  if (const auto started = live.start(); !started) fmt::print(stderr, "{}\n", started.why());
   live.run_until(kNever);
   done = true;
   client.join();

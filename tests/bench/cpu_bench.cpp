@@ -22,9 +22,8 @@ std::shared_ptr<const Program> load(std::string_view text, const CpuModel& model
 
 const std::shared_ptr<const Program>& slave() {
   static const auto kSlave = [] {
-    std::string why;
-    const auto text = tools::read_file(test::source_path("stl_programs/modbus_slave.stl"), why);
-    if (!text) throw std::runtime_error(why);
+    const auto text = tools::read_file(test::source_path("stl_programs/modbus_slave.stl"));
+    if (!text) throw std::runtime_error(text.why());
     return load(*text);
   }();
   return kSlave;

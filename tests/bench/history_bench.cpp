@@ -51,9 +51,8 @@ struct Figures {
 int main(int argc, char** argv) {
   const double minutes = argc > 1 ? std::atof(argv[1]) : 10;
   const Time end = static_cast<Time>(minutes * 60 * static_cast<double>(kSecond));
-  std::string why;
-  const auto text = tools::read_file(test::source_path("stl_programs/modbus_slave.stl"), why);
-  if (!text) return fmt::print(stderr, "{}\n", why), 2;
+  const auto text = tools::read_file(test::source_path("stl_programs/modbus_slave.stl"));
+  if (!text) return fmt::print(stderr, "{}\n", text.why()), 2;
   serial::Simulation simulation(check_text(*text, "slave", cpu214(), default_times(cpu214())).program);
   simulation.power_up();
   History history(simulation, {});

@@ -13,8 +13,7 @@
 int main(int argc, char** argv) {
   using namespace s7200;
   const int exchanges = argc > 1 ? std::atoi(argv[1]) : 0;
-  std::string why;
-  const std::string text = tools::read_file(test::source_path("stl_programs/modbus_slave.stl"), why).value();
+  const std::string text = tools::read_file(test::source_path("stl_programs/modbus_slave.stl")).value();
   serial::Simulation simulation(check_text(text, "modbus_slave.stl", cpu214(), default_times(cpu214())).program);
   simulation.cpu().use_steady_scans(SteadyScansUse::Off);
   simulation.power_up();

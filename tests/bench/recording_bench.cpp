@@ -107,9 +107,8 @@ void measure(const Form& form, std::size_t bytes) {
   for (std::size_t number = 0; text.size() < bytes; ++number) text += form.text(row(number));
   const RecordedProtocol& protocol = *find_recorded_protocol("modbus");
   const double before = processor_seconds();
-  std::string why;
   std::size_t frames = 0, right = 0, said = 0;
-  if (auto recording = read_recording(text, {}, why)) {
+  if (auto recording = read_recording(text, {})) {
     const Stamps stamps{.character = recording->over_tcp ? 0 : SerialFormat{}.character_time()};
     settle_directions(*recording, protocol, stamps);
     tell_conversation(*recording, protocol, stamps, [&](const ReadFrame& frame) {

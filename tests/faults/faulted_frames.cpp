@@ -462,9 +462,8 @@ std::string to_text(const Counts& c) {
 }
 
 std::shared_ptr<const Program> program_of(const std::string& text, const std::string& name) {
-  std::string why;
-  auto source = read_source(text, name, why);
-  if (!source) throw std::runtime_error(fmt::format("cannot read {}: {}", name, why));
+  auto source = read_source(text, name);
+  if (!source) throw std::runtime_error(fmt::format("cannot read {}: {}", name, source.why()));
   const CpuModel& model = *find_cpu("214");
   CheckResult result = check(std::move(source->parsed), model, default_times(model));
   if (!result.program) throw std::runtime_error(name + " has errors");
@@ -472,9 +471,8 @@ std::shared_ptr<const Program> program_of(const std::string& text, const std::st
 }
 
 std::shared_ptr<const Program> load_program(const std::string& path) {
-  std::string why;
-  const auto bytes = tools::read_file(path, why);
-  if (!bytes) throw std::runtime_error(fmt::format("cannot read {}: {}", path, why));
+  const auto bytes = tools::read_file(path);
+  if (!bytes) throw std::runtime_error(fmt::format("cannot read {}: {}", path, bytes.why()));
   return program_of(*bytes, path);
 }
 

@@ -29,9 +29,8 @@ std::optional<SourceText> read_files(std::string_view bytes) {
   std::vector<SourceText> files;
   for (;;) {
     const std::size_t end = bytes.find('\x1E');
-    std::string why;
-    auto file = read_source(bytes.substr(0, end), "fuzz.awl", why);
-    must(file.has_value() != !why.empty());
+    auto file = read_source(bytes.substr(0, end), "fuzz.awl");
+    must(file.has_value() != !file.why().empty());
     if (!file) return {};
     files.push_back(std::move(*file));
     if (end == std::string_view::npos) return join_files(std::move(files));
@@ -59,11 +58,10 @@ bool same(const Op& a, const Op& b) {
 /// A program in a notation, with its symbol table where it needs one.
 SourceText read_again(const std::string& text, const stl::ParseResult& parsed, Notation notation) {
   std::vector<SourceText> files;
-  std::string why;
   const std::string table = notation == Notation::MicroWin ? symbol_table_text(parsed.source) : "";
   for (const std::string& each : {text, table}) {
     if (each.empty()) continue;
-    auto again = read_source(each, "again.awl", why);
+    auto again = read_source(each, "again.awl");
     must(again.has_value());
     files.push_back(std::move(*again));
   }

@@ -79,10 +79,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if ((choices & 1U) != 0)
     for (const ReaderOption& option : protocol.options) protocol.choose(option.name, option.words.back());
   const Stamps stamps{.character = (choices & 2U) != 0 ? 1'145'833 : 0, .at_end = (choices & 4U) != 0};
-  std::string why;
   const auto recording =
-      read_recording({reinterpret_cast<const char*>(data + 2), size - 2}, {.gap = (choices & 8U) != 0 ? kSecond : 0}, why);
-  must(recording.has_value() == why.empty(), "refused without a reason, or read with one", why);
+      read_recording({reinterpret_cast<const char*>(data + 2), size - 2}, {.gap = (choices & 8U) != 0 ? kSecond : 0});
+  must(recording.has_value() == recording.why().empty(), "refused without a reason, or read with one", recording.why());
   if (!recording) return 0;
   const std::vector<ReadFrame> frames = conversation(*recording, protocol, stamps);
   const BytesRead bytes = bytes_of(*recording);

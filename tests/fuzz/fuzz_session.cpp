@@ -20,10 +20,9 @@ using namespace s7200::tools;
 
 std::optional<SessionFile> read(const std::string& text) {
   const CpuModel* const models[] = {&cpu214()};
-  std::string why;
-  const auto file = session_from_text(text, models, {}, why);
-  must(file.has_value() == why.empty(), "refused without a reason, or read with one", why);
-  return file;
+  const auto file = session_from_text(text, models, {});
+  must(file.has_value() == file.why().empty(), "refused without a reason, or read with one", file.why());
+  return file.if_any();
 }
 
 void run(const Recording& recording) {
@@ -39,8 +38,7 @@ void run(const Recording& recording) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  std::string not_json;
-  auto json = parse_json({reinterpret_cast<const char*>(data), size}, not_json).value_or(nlohmann::ordered_json());
+  auto json = parse_json({reinterpret_cast<const char*>(data), size}).value_or(nlohmann::ordered_json());
   if (!json.is_object()) return 0;
   json.erase("sum");
   json["version"] = version();

@@ -47,9 +47,8 @@ class Input {
 };
 
 inline std::shared_ptr<const Program> program_at(const std::string& path, std::string_view cpu) {
-  std::string why;
-  const auto bytes = tools::read_file(path, why);
-  auto text = bytes ? read_source(*bytes, path, why) : std::nullopt;
+  const auto bytes = tools::read_file(path);
+  auto text = bytes ? read_source(*bytes, path) : std::nullopt;
   require(text.has_value(), "the program can be read");
   const CpuModel& model = *find_cpu(cpu);
   const auto result = check(std::move(text->parsed), model, default_times(model));

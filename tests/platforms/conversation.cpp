@@ -67,9 +67,8 @@ class TracedRun {
 };
 
 int converse(const std::string& bytes) {
-  std::string why;
-  const auto text = read_source(bytes, "program.stl", why);
-  if (!text) return std::fprintf(stderr, "%s\n", why.c_str()), 1;
+  const auto text = read_source(bytes, "program.stl");
+  if (!text) return std::fprintf(stderr, "%s\n", text.why().c_str()), 1;
   const CpuModel* const named = cpu_in_head(text->parsed.source);
   const CpuModel& model = named ? *named : first_cpu_for(text->parsed);
   const CheckResult result = check(text->parsed, model, default_times(model));

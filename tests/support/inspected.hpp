@@ -19,9 +19,8 @@ inline tools::Inspection inspected(std::string_view stl, const std::vector<std::
   auto decoded = decode_program(read_text(stl, "folder/test.stl"), model, default_times(model));
   EXPECT_TRUE(decoded.known) << stl;
   tools::Inspection inspection(decoded.known);
-  std::string why;
-  const auto selection = parse_selection(about, inspection.facts, why);
-  EXPECT_TRUE(selection) << why;
+  const auto selection = parse_selection(about, inspection.facts);
+  EXPECT_TRUE(selection) << selection.why();
   if (selection) inspection.selection = *selection;
   return inspection;
 }

@@ -175,9 +175,8 @@ class Plc {
   }
 
   MemoryRange place(std::string_view address) const {
-    std::string why;
-    const auto range = parse_range(address, *cpu.program().model, why);
-    EXPECT_TRUE(range) << why;
+    const auto range = parse_range(address, *cpu.program().model);
+    EXPECT_TRUE(range) << range.why();
     return range.value_or(MemoryRange{});
   }
   std::int64_t value(std::string_view address) const {

@@ -22,9 +22,8 @@ namespace s7200::test {
 
 /// The text of a file as UTF-8; empty, and the test fails, when it cannot be read.
 inline std::string text_of(const std::string& path) {
-  std::string why;
-  auto bytes = tools::read_file(path, why);
-  EXPECT_TRUE(bytes) << path << ": " << why;
+  auto bytes = tools::read_file(path);
+  EXPECT_TRUE(bytes) << path << ": " << bytes.why();
   return bytes ? *bytes : std::string{};
 }
 

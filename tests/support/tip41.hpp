@@ -15,9 +15,8 @@ inline bool available() { return std::filesystem::exists(path()); }
 
 /// Its STL, as `s7200 import` writes it.
 inline std::string text() {
-  std::string why;
-  const auto source = read_source(text_of(path()), path(), why);
-  EXPECT_TRUE(source) << why;
+  const auto source = read_source(text_of(path()), path());
+  EXPECT_TRUE(source) << source.why();
   return source ? stl::to_text(source->parsed.source) : std::string{};
 }
 

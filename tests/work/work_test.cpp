@@ -40,9 +40,8 @@ namespace {
 /// Of all that `s7200 check` does with a text.
 Work work_of(const std::string& listing) {
   const Work before = done;
-  std::string why;
   const CpuModel& model = *find_cpu("226XM");
-  const auto text = read_source(listing, "long.stl", why);
+  const auto text = read_source(listing, "long.stl");
   const CheckResult result = check(text->parsed, model, default_times(model));
   const std::string shown = render(result.diagnostics, result.source, false);
   EXPECT_FALSE(check_summary(*text, result, model, fine_for(*text, result, model)).empty());
@@ -87,9 +86,8 @@ TEST(WorkOfChecking, GrowsAsTheCoilsDoOfWhichEachIsThereTwice) {
 /// Of what `s7200 decode` reads.
 Work work_of_reading(const std::string& recording) {
   const Work before = done;
-  std::string why;
-  auto read = read_recording(recording, {}, why);
-  EXPECT_TRUE(read.has_value() || recording.find_first_not_of("\r\n") == std::string::npos) << why;
+  auto read = read_recording(recording, {});
+  EXPECT_TRUE(read.has_value() || recording.find_first_not_of("\r\n") == std::string::npos) << read.why();
   if (!read) return {done.allocations - before.allocations, done.bytes - before.bytes};
   settle_directions(*read, *find_recorded_protocol("modbus"));
   std::size_t right = 0;

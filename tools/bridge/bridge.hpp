@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "interpreter/base/result.hpp"
 #include "serial_sim/peers/host_port.hpp"
 
 namespace boost::asio {
@@ -72,9 +73,9 @@ class Bridge {
  public:
   virtual ~Bridge() = default;
 
-  /// Starts to serve, and says where. Returns false and sets `why` if it cannot. `line` and `context` outlive the bridge's
+  /// Starts to serve, and says where. Trouble if it cannot. `line` and `context` outlive the bridge's
   /// handlers.
-  virtual bool start(LiveLine& line, boost::asio::io_context& context, std::string& why) = 0;
+  virtual Result<> start(LiveLine& line, boost::asio::io_context& context) = 0;
 
   /// Stops serving. `context` and the other arguments of start() may go then; the summary stays.
   virtual void stop() = 0;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/bridge/device_input.hpp"
 #include "tools/host/serial_device.hpp"
@@ -21,18 +22,17 @@ class DeviceBridge final : public Bridge {
  public:
   explicit DeviceBridge(const std::string& path) : path_(path) {}
 
-  bool start(LiveLine& line, asio::io_context& context, std::string& why) override {
+  Result<> start(LiveLine& line, asio::io_context& context) override {
     line_ = &line;
-    auto device = SerialDevice::open(path_, line.format(), why);
-    if (!device) {
-      why = fmt::format("cannot use {} with {} baud {}: {}", path_, line.format().baud, character_text(line.format()), why);
-      return false;
-    }
+    auto device = SerialDevice::open(path_, line.format());
+    if (!device)
+      return trouble("cannot use {} with {} baud {}: {}", path_, line.format().baud, character_text(line.format()),
+                     device.why());
     device_.emplace(std::move(*device));
     input_ = wait_for_device(context, *device_);
     await_input();
     line.messages().serving(fmt::format("connected to {}", path_));
-    return true;
+    return {};
   }
 
   void stop() override {
@@ -75,9 +75,9 @@ class DeviceBridge final : public Bridge {
 
   void follow_port() {
     const SerialFormat wanted = line_->format();
-    std::string why;
-    if (wanted == device_->format() || device_->set(wanted, why)) return;
-    fail(fmt::format("the program has set its port to {} baud {}: {}", wanted.baud, character_text(wanted), why));
+    if (wanted == device_->format()) return;
+    if (const auto done = device_->set(wanted); !done)
+      fail(fmt::format("the program has set its port to {} baud {}: {}", wanted.baud, character_text(wanted), done.why()));
   }
 
   void await_input() {
@@ -93,8 +93,7 @@ class DeviceBridge final : public Bridge {
 
   void read() {
     std::vector<SerialDevice::Character> characters;
-    std::string why;
-    if (!device_->read(characters, why)) fail("the device is gone: " + why);
+    if (const auto done = device_->read(characters); !done) fail("the device is gone: " + done.why());
     const SerialFormat format = device_->format();
     const auto fault = format.parity == Parity::None ? HostCharacter::Fault::NoStopBit : HostCharacter::Fault::WrongParity;
     std::vector<HostCharacter> sent;
@@ -110,9 +109,8 @@ class DeviceBridge final : public Bridge {
   /// it takes.
   void write() {
     while (!output_.empty() && failure_.empty()) {
-      std::string why;
-      const auto count = device_->write(output_, why);
-      if (!count) return fail("the device is gone: " + why);
+      const auto count = device_->write(output_);
+      if (!count) return fail("the device is gone: " + count.why());
       if (*count == 0) return;
       out_ += *count;
       output_.erase(output_.begin(), output_.begin() + static_cast<std::ptrdiff_t>(*count));

@@ -71,8 +71,8 @@ class LiveRun::Engine {
     for (const LiveEnd& end : ends) lines_.push_back(std::make_unique<Line>(*this, end));
   }
 
-  bool start(std::string& why) {
-    return std::ranges::all_of(lines_, [&](const auto& line) { return line->start(context_, why); });
+  Result<> start() {
+    return with_each(lines_, [&](const auto& line) { return line->start(context_); });
   }
 
   serial::Halt run_until(Time end, std::function<bool()> goes_on, const std::function<void()>& meanwhile) {
@@ -109,9 +109,9 @@ class LiveRun::Engine {
     Line(Engine& engine, const LiveEnd& end) : engine_(engine), end_(end) {}
     ~Line() override { end_.bridge->stop(); }
 
-    bool start(boost::asio::io_context& context, std::string& why) {
+    Result<> start(boost::asio::io_context& context) {
       end_.port->attach(format(), now());
-      return end_.bridge->start(*this, context, why);
+      return end_.bridge->start(*this, context);
     }
 
     Bridge& bridge() const { return *end_.bridge; }
@@ -270,7 +270,7 @@ LiveRun::LiveRun(std::unique_ptr<LiveMachine> machine, const std::vector<LiveEnd
 
 LiveRun::~LiveRun() = default;
 
-bool LiveRun::start(std::string& why) { return engine_->start(why); }
+Result<> LiveRun::start() { return engine_->start(); }
 
 serial::Halt LiveRun::run_until(Time end, std::function<bool()> goes_on, const std::function<void()>& meanwhile) {
   return engine_->run_until(end, std::move(goes_on), meanwhile);

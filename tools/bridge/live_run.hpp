@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/stop_token.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/bridge/bridge.hpp"
@@ -65,8 +66,8 @@ class LiveRun {
   LiveRun(const LiveRun&) = delete;
   LiveRun& operator=(const LiveRun&) = delete;
 
-  /// Lets the bridge serve. Returns false and sets `why` if it cannot.
-  bool start(std::string& why);
+  /// Lets the bridge serve. Trouble if it cannot.
+  Result<> start();
 
   /// Runs in real time from now on, until the simulation has come to `end`, the CPU stops, or pauses and `goes_on` returns
   /// false, a stop is asked for (Halt::Request), or a bridge fails (Halt::Request, and failure()). The next run goes on

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/counted.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "serial_sim/modbus/gateway.hpp"
@@ -37,10 +38,12 @@ class TcpBridge : public Bridge, protected TcpServer::Protocol {
  public:
   TcpBridge(BridgeKind kind, const ListenAddress& address) : kind_(row_of(kind).word()), address_(address) {}
 
-  bool start(LiveLine& line, boost::asio::io_context& context, std::string& why) override {
+  Result<> start(LiveLine& line, boost::asio::io_context& context) override {
     line_ = &line;
-    server_ = TcpServer::open(address_, *this, context, line.messages(), why);
-    return server_ != nullptr;
+    auto server = TcpServer::open(address_, *this, context, line.messages());
+    if (!server) return server.trouble();
+    server_ = *std::move(server);
+    return {};
   }
 
   void stop() override {

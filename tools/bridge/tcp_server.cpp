@@ -56,7 +56,7 @@ class Server final : public TcpServer {
   Server(Protocol& protocol, asio::io_context& context, const LiveMessages& messages)
       : protocol_(protocol), messages_(messages), acceptor_(context) {}
 
-  bool listen(const ListenAddress& address, std::string& why) {
+  Result<> listen(const ListenAddress& address) {
     Error error;
     const tcp::endpoint endpoint(asio::ip::make_address(address.host, error), address.port);
     if (!error) acceptor_.open(endpoint.protocol(), error);
@@ -64,13 +64,10 @@ class Server final : public TcpServer {
     if (!error) acceptor_.set_option(asio::socket_base::receive_buffer_size(kReceiveBuffer), error);
     if (!error) acceptor_.bind(endpoint, error);
     if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
-    if (error) {
-      why = fmt::format("cannot listen on {}: {}", to_text(address), socket_error_text(error.value()));
-      return false;
-    }
+    if (error) return trouble("cannot listen on {}: {}", to_text(address), socket_error_text(error.value()));
     messages_.serving(fmt::format("listening on {}", to_text({address.host, acceptor_.local_endpoint().port()})));
     accept();
-    return true;
+    return {};
   }
 
   void send(Client client, std::span<const std::uint8_t> bytes) override {
@@ -258,10 +255,10 @@ class Server final : public TcpServer {
 
 }  // namespace
 
-std::unique_ptr<TcpServer> TcpServer::open(const ListenAddress& address, Protocol& protocol, asio::io_context& context,
-                                           const LiveMessages& messages, std::string& why) {
+Result<std::unique_ptr<TcpServer>> TcpServer::open(const ListenAddress& address, Protocol& protocol,
+                                                   asio::io_context& context, const LiveMessages& messages) {
   auto server = std::make_unique<Server>(protocol, context, messages);
-  if (!server->listen(address, why)) return nullptr;
+  if (const auto done = server->listen(address); !done) return done.trouble();
   return server;
 }
 

@@ -20,6 +20,7 @@
 #include <string>
 
 #include "interpreter/base/listen_address.hpp"
+#include "interpreter/base/result.hpp"
 #include "tools/bridge/bridge.hpp"
 #include "tools/host/net/server_rules.hpp"
 
@@ -64,9 +65,9 @@ class TcpServer {
     std::uint64_t dropped = 0;  ///< bytes that clients left, whether they had been read or not
   };
 
-  /// Listens, and says where. Null, and `why`, if it cannot. The references outlive it.
-  static std::unique_ptr<TcpServer> open(const ListenAddress& address, Protocol& protocol, boost::asio::io_context& context,
-                                         const LiveMessages& messages, std::string& why);
+  /// Listens, and says where. Trouble if it cannot. The references outlive it.
+  static Result<std::unique_ptr<TcpServer>> open(const ListenAddress& address, Protocol& protocol,
+                                                 boost::asio::io_context& context, const LiveMessages& messages);
 
   virtual ~TcpServer() = default;
   virtual void send(Client client, std::span<const std::uint8_t> bytes) = 0;

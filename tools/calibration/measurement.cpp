@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/word_bytes.hpp"
 
 namespace s7200::tools {
@@ -71,13 +72,13 @@ std::optional<Measured> ask(Slave& slave, const Command& command, const Patience
   throw std::runtime_error("no answer from measure_times.stl");
 }
 
-/// Asks like ask(); nothing and `why` if the CPU is no longer there.
-std::optional<Measured> ask_on(Slave& slave, const Command& command, std::string& why) {
+/// Asks like ask(); trouble if the CPU is no longer there.
+Result<Measured> ask_on(Slave& slave, const Command& command) {
   try {
-    return ask(slave, command);
+    if (const auto measured = ask(slave, command)) return *measured;
+    return std::nullopt;
   } catch (const std::runtime_error& gone) {
-    why = gone.what();
-    return {};
+    return Trouble{gone.what()};
   }
 }
 
@@ -114,12 +115,14 @@ Measurement measure_loops(Slave& slave, std::size_t loops, Time each, const Meas
     // A first look with few repetitions says how many fit.
     const auto number = static_cast<std::uint8_t>(i);
     constexpr std::uint16_t kFew = 8;
-    const auto look = ask_on(slave, {number, outer, kFew}, measurement.broken_off);
+    const auto look = ask_on(slave, {number, outer, kFew});
+    measurement.broken_off = look.why();
     if (!look) break;
     const double few = in_ns(*look) - in_ns(*nothing);
     const double once = std::max(few + kWithinNs, kWithinNs) / (outer * kFew);
     const auto inner = static_cast<std::uint16_t>(std::clamp(kInnerNs / once, 1.0, 30'000.0));
-    const auto run = ask_on(slave, {number, outer, inner}, measurement.broken_off);
+    const auto run = ask_on(slave, {number, outer, inner});
+    measurement.broken_off = run.why();
     if (!run) break;
     const double repetitions = static_cast<double>(outer) * inner;
     measurement.loops.push_back(

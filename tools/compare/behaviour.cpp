@@ -389,10 +389,10 @@ BehaviourResult compare_behaviour(const Inspection& older, const Inspection& new
   return Search(older, newer, settings).result();
 }
 
-std::string difference_scenario(const Inspection& older, const Inspection& newer, const BehaviourResult& result,
-                                const std::string& path, const ScenarioOrigin& origin, std::string& why) {
+Result<std::string> difference_scenario(const Inspection& older, const Inspection& newer, const BehaviourResult& result,
+                                        const std::string& path, const ScenarioOrigin& origin) {
   const BehaviourDifference& difference = *result.difference;
-  why = "the line of a scenario has other times than the characters of the trial";
+  Trouble none{"the line of a scenario has other times than the characters of the trial"};
   for (const std::string& expectation : difference.expectations) {
     TrialScenario scenario{.name = fmt::format("{} differs", difference.what), .origin = origin, .port = result.port};
     const std::size_t steps = difference.beside.empty() ? difference.trial.size() : difference.beside.size();
@@ -403,12 +403,14 @@ std::string difference_scenario(const Inspection& older, const Inspection& newer
     scenario.beside = difference.beside;
     scenario.end = expectation;
     const std::string text = scenario_text(scenario, *older.program);
-    const auto of_older = findings_of(text, path, older.program, why);
-    const auto of_newer = findings_of(text, path, newer.program, why);
+    const auto of_older = findings_of(text, path, older.program);
+    const auto of_newer = findings_of(text, path, newer.program);
     if (of_older && of_older->empty() && of_newer && !of_newer->empty()) return text;
-    if (of_older && !of_older->empty()) why = of_older->front();
+    for (const auto* findings : {&of_older, &of_newer})
+      if (!*findings) none = findings->trouble();
+    if (of_older && !of_older->empty()) none = Trouble{of_older->front()};
   }
-  return {};
+  return none;
 }
 
 }  // namespace s7200::tools

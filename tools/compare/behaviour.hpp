@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/stop_token.hpp"
 #include "interpreter/program/operands/address.hpp"
 #include "tools/trials/contacts_seen.hpp"
@@ -59,9 +60,9 @@ BehaviourResult compare_behaviour(const Inspection& older, const Inspection& new
 std::string behaviour_text(const Inspection& older, const Inspection& newer, const BehaviourResult& result);
 nlohmann::ordered_json behaviour_json(const Inspection& older, const Inspection& newer, const BehaviourResult& result);
 
-/// A scenario that passes with the old program and fails with the new one. Empty, and `why`, if there is none. `program`:
+/// A scenario that passes with the old program and fails with the new one. Trouble if there is none. `program`:
 /// the old one's path, as it is to stand in the file at `path`.
-std::string difference_scenario(const Inspection& older, const Inspection& newer, const BehaviourResult& result,
-                                const std::string& path, const ScenarioOrigin& origin, std::string& why);
+Result<std::string> difference_scenario(const Inspection& older, const Inspection& newer, const BehaviourResult& result,
+                                        const std::string& path, const ScenarioOrigin& origin);
 
 }  // namespace s7200::tools

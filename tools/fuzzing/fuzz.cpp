@@ -236,23 +236,19 @@ class Search {
 
 FuzzResult fuzz(const Inspection& inspection, const FuzzSettings& settings) { return Search(inspection, settings).result(); }
 
-std::string finding_scenario(const Inspection& inspection, const FuzzResult& result, const FuzzFinding& finding,
-                             const std::string& path, const ScenarioOrigin& origin, std::string& why) {
-  why = "no address of the rule can be expected to have another value";
-  if (finding.end.empty()) return {};
+Result<std::string> finding_scenario(const Inspection& inspection, const FuzzResult& result, const FuzzFinding& finding,
+                                     const std::string& path, const ScenarioOrigin& origin) {
+  if (finding.end.empty()) return Trouble{"no address of the rule can be expected to have another value"};
   TrialScenario scenario{.name = finding.what, .origin = origin, .port = result.port, .trial = finding.trial};
   scenario.begun = finding.begun;
   scenario.end = finding.end;
-  if (!choose_port(scenario, finding)) {
-    why = "it needs both ports, and a scenario of one program has a line at one of them";
-    return {};
-  }
+  if (!choose_port(scenario, finding))
+    return Trouble{"it needs both ports, and a scenario of one program has a line at one of them"};
   const std::string text = scenario_text(scenario, *inspection.program);
-  const auto findings = findings_of(text, path, inspection.program, why);
-  if (!findings) return {};
+  const auto findings = findings_of(text, path, inspection.program);
+  if (!findings) return findings.trouble();
   if (!findings->empty()) return text;
-  why = "on a line with levels it does not come to it";
-  return {};
+  return Trouble{"on a line with levels it does not come to it"};
 }
 
 }  // namespace s7200::tools

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/stop_token.hpp"
 #include "interpreter/program/operands/address.hpp"
 #include "tools/session/causes/expression.hpp"
@@ -79,8 +80,8 @@ FuzzResult fuzz(const Inspection& inspection, const FuzzSettings& settings);
 std::string fuzz_text(const Inspection& inspection, const FuzzResult& result);
 nlohmann::ordered_json fuzz_json(const Inspection& inspection, const FuzzResult& result);
 
-/// A scenario that fails as long as the program does what was found. Empty, and `why`, if it does not show it.
-std::string finding_scenario(const Inspection& inspection, const FuzzResult& result, const FuzzFinding& finding,
-                             const std::string& path, const ScenarioOrigin& origin, std::string& why);
+/// A scenario that fails as long as the program does what was found. Trouble if it does not show it.
+Result<std::string> finding_scenario(const Inspection& inspection, const FuzzResult& result, const FuzzFinding& finding,
+                                     const std::string& path, const ScenarioOrigin& origin);
 
 }  // namespace s7200::tools

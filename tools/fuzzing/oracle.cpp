@@ -37,8 +37,7 @@ void Oracle::watch_rules(TrialBench& bench) {
   if (settings_.never.empty()) return;
   bench.at_scan_end([this](const Cpu& cpu) {
     for (std::size_t rule = 0; rule < settings_.never.size(); ++rule) {
-      std::string why;
-      const auto value = settings_.never[rule].value(cpu, why);
+      const auto value = settings_.never[rule].value(cpu);
       if (!value || !value->truth()) continue;
       broken_ = rule;
       return false;
@@ -138,8 +137,7 @@ std::string Oracle::rule_check(const FuzzFinding& finding, const TrialBench& ben
       std::copy_n(first.image.begin() + at, bytes, image.begin());
     }
     changed.poke(at, image);
-    std::string why;
-    const auto holds = settings_.never[finding.rule].value(changed.cpu(), why);
+    const auto holds = settings_.never[finding.rule].value(changed.cpu());
     if (holds && !holds->truth())
       return fmt::format("  - wait: until {}\n  - memory: {{{}: {}}}\n", exact(bench.time() - bench.powered_up_at()),
                          place.range.name_of(0), value);

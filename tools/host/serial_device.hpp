@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/serial_format.hpp"
 
 namespace s7200::tools {
@@ -33,19 +34,19 @@ class SerialDevice {
     bool operator==(const Character&) const = default;
   };
 
-  /// Opens a device for this process alone, raw and without flow control; what came in before is forgotten. Nothing, and
-  /// `why`, when that cannot be done or the device does not take the format. A pty takes every format with 8 data bits and
+  /// Opens a device for this process alone, raw and without flow control; what came in before is forgotten. Trouble
+  /// when that cannot be done or the device does not take the format. A pty takes every format with 8 data bits and
   /// has no parity.
-  static std::optional<SerialDevice> open(const std::string& path, const SerialFormat& format, std::string& why);
+  static Result<SerialDevice> open(const std::string& path, const SerialFormat& format);
 
   /// Restores the device's settings.
   ~SerialDevice();
   SerialDevice(SerialDevice&& other) noexcept;
   SerialDevice& operator=(SerialDevice&&) = delete;
 
-  /// Another format from now on, for what is still to be sent too. False, and `why`, when the device does not take it; the
+  /// Another format from now on, for what is still to be sent too. Trouble when the device does not take it; the
   /// old one then holds.
-  bool set(const SerialFormat& format, std::string& why);
+  Result<> set(const SerialFormat& format);
   const SerialFormat& format() const { return format_; }
 
   /// What a loop waits for: a descriptor for poll(2) that never blocks; on Windows the handle of an event that is set while
@@ -62,14 +63,14 @@ class SerialDevice {
   /// Returns when what was written is on its way.
   void drain();
 
-  /// Appends what has come in, at most kMostAtOnce characters: a side that never stops sending blocks nothing. Returns false
-  /// and sets `why` when the device is gone.
+  /// Appends what has come in, at most kMostAtOnce characters: a side that never stops sending blocks nothing. Trouble
+  /// when the device is gone.
   static constexpr std::size_t kMostAtOnce = 4096;
-  bool read(std::vector<Character>& characters, std::string& why);
+  Result<> read(std::vector<Character>& characters);
 
-  /// Writes bytes. Returns how many were taken, 0 when none can be taken just now. Nothing, with `why` set, when the device
+  /// Writes bytes. Returns how many were taken, 0 when none can be taken just now. Trouble when the device
   /// is gone.
-  std::optional<std::size_t> write(std::span<const std::uint8_t> bytes, std::string& why);
+  Result<std::size_t> write(std::span<const std::uint8_t> bytes);
 
   /// Forgets what has come in and was not read.
   void discard_input();

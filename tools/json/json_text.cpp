@@ -40,13 +40,11 @@ std::string why_too_much(std::string_view text, const JsonLimits& limits) {
 
 }  // namespace
 
-std::optional<Json> parse_json(std::string_view text, std::string& why, const JsonLimits& limits) {
-  why = why_too_much(text, limits);
-  if (!why.empty()) return {};
+Result<Json> parse_json(std::string_view text, const JsonLimits& limits) {
+  if (std::string why = why_too_much(text, limits); !why.empty()) return Trouble{std::move(why)};
   Json json = Json::parse(text, nullptr, false);
   if (!json.is_discarded()) return json;
-  why = "not JSON";
-  return {};
+  return Trouble{"not JSON"};
 }
 
 std::string in_one_line(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "interpreter/base/result.hpp"
+
 namespace s7200::tools {
 
 /// How much a JSON text may have.
@@ -16,9 +18,9 @@ struct JsonLimits {
   std::size_t members = 10'000;  ///< of one map: each is compared with all before it
 };
 
-/// Returns nothing and sets `why` if the text is not JSON, or has more of something than `limits` allow. `why` completes a
+/// Trouble if the text is not JSON, or has more of something than `limits` allow. What it says completes a
 /// sentence that begins with "it is": `not JSON`.
-std::optional<nlohmann::ordered_json> parse_json(std::string_view text, std::string& why, const JsonLimits& limits = {});
+Result<nlohmann::ordered_json> parse_json(std::string_view text, const JsonLimits& limits = {});
 
 /// A value as JSON in one line; what is not UTF-8 in it as U+FFFD.
 std::string in_one_line(const nlohmann::ordered_json& value);

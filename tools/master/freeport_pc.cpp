@@ -131,9 +131,8 @@ std::vector<MasterAction> FreeportPcParser::parse(const Words& words) {
 }
 
 void FreeportPcParser::add(Type type, const std::string& address, std::size_t count, Bytes data) {
-  std::string why;
-  const auto first = pc_protocol::parse_address(address, why);
-  if (!first) refuse(why);
+  const auto first = pc_protocol::parse_address(address);
+  if (!first) refuse(first.why());
   if (first->number + count - 1 > UINT16_MAX) refuse(fmt::format("{}: the bytes run past {}", text_, UINT16_MAX));
   Command command{type, station_, *first, std::move(data)};
   serial::Frame frame = serial::to_frame(pc_protocol::to_bytes(command));

@@ -296,10 +296,9 @@ Words ModbusParser::without_area(const Words& operands) {
 
 modbus::DataAddress ModbusParser::address(const std::string& text) const {
   if (area_ != nullptr) return {area_->area, word(text, fmt::format("address of {}s", area_->singular))};
-  std::string why;
-  const auto parsed = modbus::parse_address(text, why);
+  const auto parsed = modbus::parse_address(text);
   if (!parsed)
-    refuse(fmt::format("{}; or name the area ({}) and count from 0", why,
+    refuse(fmt::format("{}; or name the area ({}) and count from 0", parsed.why(),
                        stl::joined(modbus::areas(), &modbus::AreaRow::word)));
   return *parsed;
 }

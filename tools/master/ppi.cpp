@@ -367,9 +367,8 @@ MemoryRange PpiParser::range_of(const std::string& text) {
     model.size.fill(0x20'0000);  // as far as the 24 bits of an address reach
     return model;
   }();
-  std::string why;
-  const auto range = parse_range(text, boundless, why);
-  if (!range) refuse(why);
+  const auto range = parse_range(text, boundless);
+  if (!range) refuse(range.why());
   const std::uint32_t size = cpu226().size_of(range->area), step = is_element(*range) ? 1 : bytes_of(range->width);
   if (range->number + std::uint64_t{range->count} * step > size)
     refuse(fmt::format("'{}' does not exist on any CPU: {} memory has {} {} at most", stl::shortened(text),

@@ -65,9 +65,8 @@ void WordParser::station(const Words& operands) {
 }
 
 void WordParser::wait(const Words& operands) {
-  std::string why;
-  const auto duration = parse_duration_in(operands[0], {0, kLongestDuration}, why);
-  if (!duration) refuse(fmt::format("{}: {}", text_, why));
+  const auto duration = parse_duration_in(operands[0], {0, kLongestDuration});
+  if (!duration) refuse(fmt::format("{}: {}", text_, duration.why()));
   actions_.push_back({.kind = MasterAction::Kind::Wait, .text = text_, .station = station_, .duration = *duration});
 }
 

@@ -384,8 +384,7 @@ std::vector<Figure> measure_files(const Effort& effort) {
   const CpuModel& model = cpu226xm();
   const TimeTable times = default_times(model);
   const auto check_listing = [&] {
-    std::string why;
-    const auto text = read_source(listing, "long.stl", why);
+    const auto text = read_source(listing, "long.stl");
     const CheckResult result = check(text->parsed, model, times);
     return static_cast<double>(kLines * (fine_for(*text, result, model).empty() ? 1 : 0));
   };

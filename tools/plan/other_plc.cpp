@@ -2,21 +2,25 @@
 
 namespace s7200::tools {
 
-std::unique_ptr<westinghouse::Plc> make_other_plc(const westinghouse::PlcRow& row, std::string_view model,
-                                                  const std::vector<std::string>& settings, std::string& why) {
-  std::unique_ptr<westinghouse::Plc> plc = westinghouse::make_plc(row, model, why);
-  if (!plc) return nullptr;
+Result<std::unique_ptr<westinghouse::Plc>> make_other_plc(const westinghouse::PlcRow& row, std::string_view model,
+                                                          const std::vector<std::string>& settings) {
+  auto plc = westinghouse::make_plc(row, model);
+  if (!plc) return plc;
   for (const bool cells : {false, true})
-    for (const std::string& setting : settings)
-      if (plc->names_cells(setting) == cells && !plc->set(setting, why)) return why.insert(0, "--plc: "), nullptr;
+    for (const std::string& setting : settings) {
+      if ((*plc)->names_cells(setting) != cells) continue;
+      if (const auto done = (*plc)->set(setting); !done) return trouble("--plc: {}", done.why());
+    }
   for (const std::string& setting : settings)
-    if (!plc->still_reaches(setting, why)) return why.insert(0, "--plc: "), nullptr;
+    if (const auto done = (*plc)->still_reaches(setting); !done) return trouble("--plc: {}", done.why());
   return plc;
 }
 
-std::unique_ptr<serial::Automaton> make_other_plc(std::string_view protocol, std::string_view model,
-                                                  const std::vector<std::string>& settings, std::string& why) {
-  return make_other_plc(*westinghouse::find_plc(protocol), model, settings, why);
+Result<std::unique_ptr<serial::Automaton>> make_other_plc(std::string_view protocol, std::string_view model,
+                                                          const std::vector<std::string>& settings) {
+  auto plc = make_other_plc(*westinghouse::find_plc(protocol), model, settings);
+  if (!plc) return plc.trouble();
+  return *std::move(plc);
 }
 
 }  // namespace s7200::tools

@@ -31,24 +31,23 @@ WrongValueOfKey not_such(std::string_view text, std::string_view what, std::stri
 /// Reads a part of the system block, for a CPU that is known.
 template <class Part, class Parse>
 WrongValueOfKey take_part(Part& part, std::string_view text, const AddressSpace* space, Parse parse) {
-  std::string why;
   if (!space) return {};
-  if (const auto read = parse(text, space->model, why)) part = *read;
-  return {why};
+  const auto read = parse(text, space->model);
+  if (read) part = *read;
+  return {read.why()};
 }
 
 WrongValueOfKey take_second(PlcSettings& settings, std::string_view text, const AddressSpace* space) {
-  std::string why;
   if (!space) return {};
-  if (const auto read = parse_second_request(text, why)) settings.system_block.second_request = *read;
-  return {why};
+  const auto read = parse_second_request(text);
+  if (read) settings.system_block.second_request = *read;
+  return {read.why()};
 }
 
 WrongValueOfKey take_assignment(PlcSettings& settings, std::string_view text, const AddressSpace* space) {
-  std::string why;
-  const auto assignment = space ? parse_assignment(text, *space, why) : std::nullopt;
+  const auto assignment = space ? parse_assignment(text, *space) : std::nullopt;
   if (assignment) settings.set.push_back(*assignment);
-  return {why};
+  return {assignment.why()};
 }
 
 WrongValueOfKey take_clock(PlcSettings& settings, std::string_view text, const AddressSpace* space) {
@@ -72,22 +71,20 @@ WrongValueOfKey take_start(PlcSettings& settings, std::string_view text, const A
 }
 
 WrongValueOfKey take_power_off(PlcSettings& settings, std::string_view text, const AddressSpace* /*space*/) {
-  std::string why;
-  if (const auto off = parse_duration_in(text, {0, kLongestDuration}, why)) settings.memory.power_off = *off;
-  return {why};
+  const auto off = parse_duration_in(text, {0, kLongestDuration});
+  if (off) settings.memory.power_off = *off;
+  return {off.why()};
 }
 
 WrongValueOfKey take_signals(PlcSettings& settings, std::string_view text, const AddressSpace* space) {
-  std::string why;
-  const auto signals = space ? parse_signals(text, *space, why) : std::nullopt;
+  const auto signals = space ? parse_signals(text, *space) : std::nullopt;
   if (signals) settings.signals.insert(settings.signals.end(), signals->begin(), signals->end());
-  return {why};
+  return {signals.why()};
 }
 
 WrongValueOfKey take_dump(PlcSettings& settings, std::string_view text, const AddressSpace* space) {
-  std::string why;
-  const auto range = space ? parse_range(text, *space, why) : std::nullopt;
-  if (!range) return {why};
+  const auto range = space ? parse_range(text, *space) : std::nullopt;
+  if (!range) return {range.why()};
   settings.dumps.push_back(*range);
   settings.dump_names.emplace_back(text);
   return {};

@@ -11,10 +11,9 @@ namespace s7200::tools {
 std::optional<serial::FieldScript> read_field(const std::string& path, const AddressSpace& space, const FileSource& files,
                                               std::vector<std::string>& problems) {
   if (path.empty()) return serial::FieldScript{};
-  std::string why;
-  const auto csv = stl::read_decoded(files, path, why);
+  const auto csv = stl::read_decoded(files, path);
   if (!csv) {
-    problems.push_back(fmt::format("cannot read {}: {}", path, why));
+    problems.push_back(fmt::format("cannot read {}: {}", path, csv.why()));
     return {};
   }
   std::vector<std::string> errors;

@@ -19,9 +19,8 @@ ProgramCpu wrong(const std::string& file, std::uint32_t line, const std::string&
 }
 
 ProgramCpu read_settings(const std::string& file, const FileSource& files) {
-  ProgramCpu cpu;
-  const auto text = files.read_text(file, cpu.why);
-  if (!text) return {.why = fmt::format("cannot read {}: {}", stl::printable(file), cpu.why)};
+  const auto text = files.read_text(file);
+  if (!text) return {.why = fmt::format("cannot read {}: {}", stl::printable(file), text.why())};
   stl::Diagnostics diagnostics;
   const auto source = source_of(*text, file);
   const auto root = read_yaml(*text, *source, diagnostics, {"the settings of a folder", "'cpu:'"});
@@ -34,12 +33,12 @@ ProgramCpu read_settings(const std::string& file, const FileSource& files) {
   YamlValues values(diagnostics);
   const auto name = values.optional_text(*root, "cpu");
   if (!name) return wrong(file, 1, "write for example cpu: 224");
-  cpu.model = find_cpu(*name);
-  if (!cpu.model)
+  const CpuModel* const model = find_cpu(*name);
+  if (!model)
     return wrong(file, root->find("cpu")->position.line,
                  fmt::format("there is no model of CPU '{}'; modelled: {}", stl::printable(stl::shortened(*name)),
                              stl::joined(all_cpus(), &CpuModel::name)));
-  return cpu;
+  return {.model = model};
 }
 
 }  // namespace

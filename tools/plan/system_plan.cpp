@@ -16,16 +16,15 @@ namespace {
 
 std::string no_plc_on(const LinePlan& line) { return fmt::format("no PLC is on line '{}'", line.name); }
 
-std::optional<Spot> beside_first_plc(const SystemPlan& plan, std::size_t line, std::string& why) {
+Result<Spot> beside_first_plc(const SystemPlan& plan, std::size_t line) {
   if (const StationPlan* const first = first_plc(plan.lines[line])) return Spot{line, first->number, first->port};
-  why = no_plc_on(plan.lines[line]);
   if (first_other_plc(plan, plan.lines[line]))
-    why = fmt::format("no S7-200 is on line '{}' for a master to stand beside", plan.lines[line].name);
-  return {};
+    return trouble("no S7-200 is on line '{}' for a master to stand beside", plan.lines[line].name);
+  return Trouble{no_plc_on(plan.lines[line])};
 }
 
 /// Finds a PLC's spot: `gateway`, `gateway.1`
-std::optional<Spot> at_plc(const SystemPlan& plan, std::string_view name, std::string& why) {
+Result<Spot> at_plc(const SystemPlan& plan, std::string_view name) {
   const std::size_t dot = name.find('.');
   const std::string_view plc = name.substr(0, dot), port = dot == name.npos ? "0" : name.substr(dot + 1);
   bool known = false;
@@ -35,10 +34,10 @@ std::optional<Spot> at_plc(const SystemPlan& plan, std::string_view name, std::s
       known = true;
       if (port == fmt::format("{}", station.port)) return Spot{line, station.number, station.port};
     }
-  why = known ? fmt::format("port {} of '{}' is on no line", stl::shortened(std::string(port)), plc)
-              : fmt::format("there is no line or PLC '{}': the lines are {}, the PLCs {}", stl::shortened(std::string(plc)),
-                            stl::joined(plan.lines, &LinePlan::name), stl::joined(plan.plcs, &PlcPlan::name));
-  return {};
+  return Trouble{known ? fmt::format("port {} of '{}' is on no line", stl::shortened(std::string(port)), plc)
+                       : fmt::format("there is no line or PLC '{}': the lines are {}, the PLCs {}",
+                                     stl::shortened(std::string(plc)), stl::joined(plan.lines, &LinePlan::name),
+                                     stl::joined(plan.plcs, &PlcPlan::name))};
 }
 
 }  // namespace
@@ -131,25 +130,20 @@ SerialFormat format_without_s7200(const SystemPlan& plan, const LinePlan& line) 
   return other ? plan.peers[other->number].automaton->format() : SerialFormat{};
 }
 
-std::optional<Spot> find_spot(const SystemPlan& plan, std::string_view name, std::string& why) {
-  std::string why_no_line;
-  if (const auto line = find_line(plan, name, why_no_line)) return beside_first_plc(plan, *line, why);
-  if (!name.empty()) return at_plc(plan, name, why);
-  why = why_no_line;
-  return {};
+Result<Spot> find_spot(const SystemPlan& plan, std::string_view name) {
+  const auto line = find_line(plan, name);
+  if (line) return beside_first_plc(plan, *line);
+  return name.empty() ? line.trouble() : at_plc(plan, name);
 }
 
-std::optional<std::size_t> find_line(const SystemPlan& plan, std::string_view name, std::string& why) {
-  if (name.empty() && plan.lines.size() > 1) {
-    why = fmt::format("there are several lines, {}: name one of them{}", stl::joined(plan.lines, &LinePlan::name),
-                      plan.plcs.empty() ? "" : ", or a PLC");
-    return {};
-  }
+Result<std::size_t> find_line(const SystemPlan& plan, std::string_view name) {
+  if (name.empty() && plan.lines.size() > 1)
+    return trouble("there are several lines, {}: name one of them{}", stl::joined(plan.lines, &LinePlan::name),
+                   plan.plcs.empty() ? "" : ", or a PLC");
   const auto line = name.empty() ? plan.lines.begin() : std::ranges::find(plan.lines, name, &LinePlan::name);
   if (line != plan.lines.end()) return static_cast<std::size_t>(line - plan.lines.begin());
-  why = fmt::format("there is no line '{}': the lines are {}", stl::shortened(std::string(name)),
-                    stl::joined(plan.lines, &LinePlan::name));
-  return {};
+  return trouble("there is no line '{}': the lines are {}", stl::shortened(std::string(name)),
+                 stl::joined(plan.lines, &LinePlan::name));
 }
 
 std::vector<Spot> spots_of_plcs(const SystemPlan& plan) {

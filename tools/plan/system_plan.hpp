@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/program/operands/address.hpp"
 #include "interpreter/program/program.hpp"
 #include "serial_sim/faults/fault.hpp"
@@ -155,11 +156,11 @@ const StationPlan* first_other_plc(const SystemPlan& plan, const LinePlan& line)
 SerialFormat format_without_s7200(const SystemPlan& plan, const LinePlan& line);
 
 /// The spot that `name` means: a line, at its first PLC; or a PLC, `gateway`, or one of its ports, `gateway.1`. An empty
-/// name is the only line. Returns nothing and sets `why` if there is none.
-std::optional<Spot> find_spot(const SystemPlan& plan, std::string_view name, std::string& why);
+/// name is the only line. Trouble if there is none.
+Result<Spot> find_spot(const SystemPlan& plan, std::string_view name);
 
-/// The line of that name; an empty name is the only line. Returns nothing and sets `why` if there is none.
-std::optional<std::size_t> find_line(const SystemPlan& plan, std::string_view name, std::string& why);
+/// The line of that name; an empty name is the only line. Trouble if there is none.
+Result<std::size_t> find_line(const SystemPlan& plan, std::string_view name);
 
 /// The first place of each PLC on a line, by number. Each is on a line.
 std::vector<Spot> spots_of_plcs(const SystemPlan& plan);

@@ -50,10 +50,11 @@ Time part_of_second(std::uint64_t count, std::uint64_t units) {
 
 bool looks_like_pcap(std::string_view bytes) { return bytes.starts_with(kSectionMagic) || pcap_magic(bytes) != nullptr; }
 
-std::optional<CaptureFile> CaptureFile::open(std::string_view bytes, std::string& why) {
+Result<CaptureFile> CaptureFile::open(std::string_view bytes) {
   CaptureFile file(bytes);
   file.is_pcapng_ = bytes.starts_with(kSectionMagic);
-  if (!file.is_pcapng_ && !file.open_pcap(why)) return {};
+  if (!file.is_pcapng_)
+    if (const auto done = file.open_pcap(); !done) return done.trouble();
   return file;
 }
 
@@ -86,21 +87,20 @@ std::optional<CaptureFile::Packet> CaptureFile::packet(const Interface& from, st
 
 // --- pcap ---
 
-bool CaptureFile::open_pcap(std::string& why) {
+Result<> CaptureFile::open_pcap() {
   constexpr std::size_t kHead = 24;
   constexpr std::uint32_t kLinkType = 0x03FFFFFF;  // above it stands how long a check sum is
   const PcapMagic* const magic = pcap_magic(bytes_);
-  if (!magic) return why = "it does not begin as a capture", false;
-  if (bytes_.size() < kHead) return why = "it is cut off in its head", false;
+  if (!magic) return Trouble{"it does not begin as a capture"};
+  if (bytes_.size() < kHead) return Trouble{"it is cut off in its head"};
   big_endian_ = magic->big_endian;
   const std::uint64_t major = number(4, 2), minor = number(6, 2);
-  if (major != 2)
-    return why = fmt::format("it is of version {}.{} of pcap, and 2 is the one that is read", major, minor), false;
+  if (major != 2) return trouble("it is of version {}.{} of pcap, and 2 is the one that is read", major, minor);
   old_lengths_ = minor < 4;
   interfaces_ = {{.link_type = static_cast<int>(word(20) & kLinkType), .units = magic->units}};
   link_types_ = {interfaces_[0].link_type};
   at_ = kHead;
-  return true;
+  return {};
 }
 
 std::optional<CaptureFile::Packet> CaptureFile::next_of_pcap() {

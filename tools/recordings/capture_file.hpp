@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/time.hpp"
 
 namespace s7200::tools {
@@ -30,8 +31,8 @@ class CaptureFile {
     std::span<const std::uint8_t> data{};  ///< of the bytes that the file was opened with
   };
 
-  /// Reads what stands before the first packet. Nothing, with `why` set, if it is not a capture. The bytes outlive it.
-  static std::optional<CaptureFile> open(std::string_view bytes, std::string& why);
+  /// Reads what stands before the first packet. Trouble if it is not a capture. The bytes outlive it.
+  static Result<CaptureFile> open(std::string_view bytes);
 
   /// The next packet. Nothing at the end, and when error() tells what is wrong.
   std::optional<Packet> next();
@@ -56,7 +57,7 @@ class CaptureFile {
   explicit CaptureFile(std::string_view bytes) : bytes_(bytes) {}
   std::uint64_t number(std::size_t at, std::size_t count) const;
   std::uint32_t word(std::size_t at) const { return static_cast<std::uint32_t>(number(at, 4)); }
-  bool open_pcap(std::string& why);
+  Result<> open_pcap();
   std::optional<Packet> next_of_pcap();
   std::optional<Packet> next_of_pcapng();
   bool begin_section(std::size_t at, std::size_t length);

@@ -102,15 +102,14 @@ std::string_view in_utf8(std::string_view file, std::string& decoded) {
   const std::string_view mark = missing_mark(file);
   const bool marked = file.starts_with("\xFF\xFE") || file.starts_with("\xFE\xFF");
   const std::string_view beginning = beginning_of(file);
-  std::string why;
   std::optional<stl::DecodedText> text;
   if (!mark.empty())
-    text = stl::decode(std::string(mark).append(file), why);
+    text = stl::decode(std::string(mark).append(file)).if_any();
   else if (marked)
-    text = stl::decode(file, why);
-  else if (const auto guess = stl::is_valid_utf8(beginning) ? std::nullopt : stl::decode(beginning, why);
+    text = stl::decode(file).if_any();
+  else if (const auto guess = stl::is_valid_utf8(beginning) ? std::nullopt : stl::decode(beginning);
            guess && (guess->encoding == "GBK" || guess->encoding == "Shift-JIS") && !looks_like_character_log(file))
-    text = stl::decode(file, why);
+    text = stl::decode(file).if_any();
   if (!text) return stl::without_byte_order_mark(file);
   return decoded = std::move(text->text);
 }
@@ -126,10 +125,9 @@ bool has_words_beyond_ascii(std::string_view text) {
 
 /// A text log in UTF-8, whatever its encoding. `decoded` keeps what is converted.
 std::string_view log_in_utf8(std::string_view bytes, std::string& decoded) {
-  std::string why;
   const std::string_view beginning = beginning_of(bytes);
   if (stl::is_valid_utf8(beginning) || !has_words_beyond_ascii(beginning)) return bytes;
-  auto text = stl::decode(bytes, why);
+  auto text = stl::decode(bytes);
   return text ? decoded = std::move(text->text) : bytes;
 }
 
@@ -213,7 +211,7 @@ std::span<const RecordingForm> recording_forms() { return kForms; }
 
 bool is_text(std::string_view bytes) { return bytes.find('\0') == std::string_view::npos; }
 
-std::optional<LineRecording> read_recording(std::string_view file, const ReadingChoices& choices, std::string& why) {
+Result<LineRecording> read_recording(std::string_view file, const ReadingChoices& choices) {
   std::string decoded;
   std::string_view bytes = in_utf8(file, decoded);
   const auto rows = in_plain_rows(bytes);
@@ -223,18 +221,18 @@ std::optional<LineRecording> read_recording(std::string_view file, const Reading
   const auto form = std::ranges::find_if(kForms, [&](const RecordingForm& each) { return each.looks_like(bytes); });
   if (form == kForms.end()) {
     const auto packed = std::ranges::find_if(kBinaries, [&](const Binary& each) { return bytes.starts_with(each.begin); });
-    why = packed != kBinaries.end()
-              ? std::string(packed->why)
-              : "it is binary, and not a capture that decode knows; for recorded bytes alone, decode what xxd prints of it";
-    return {};
+    return Trouble{
+        packed != kBinaries.end()
+            ? std::string(packed->why)
+            : "it is binary, and not a capture that decode knows; for recorded bytes alone, decode what xxd prints of it"};
   }
-  if (bytes.find_first_not_of(" \t\r\n") == std::string_view::npos) return why = "the file is empty", std::nullopt;
+  if (bytes.find_first_not_of(" \t\r\n") == std::string_view::npos) return Trouble{"the file is empty"};
   const auto other = std::ranges::find_if(kOtherTexts, [&](const OtherText& each) { return each.is_it(bytes); });
-  if (form->looks_like == is_text && other != kOtherTexts.end()) return why = other->why, std::nullopt;
+  if (form->looks_like == is_text && other != kOtherTexts.end()) return Trouble{std::string(other->why)};
   std::string in_other_encoding;
   if (form->looks_like == is_text) bytes = log_in_utf8(bytes, in_other_encoding);
-  auto recording = form->read(bytes, choices, why);
-  if (!recording) return {};
+  auto recording = form->read(bytes, choices);
+  if (!recording) return recording.trouble();
   recording->form = form->name;
   recording->is_log |= form->is_log;
   if (form->looks_like == is_text) keep_one_logger(*recording, bytes);
@@ -250,9 +248,9 @@ std::optional<LineRecording> read_recording(std::string_view file, const Reading
   const bool one_value_each =  // `10:00:00,21,35` below `time,temp,pressure`
       std::ranges::all_of(recording->frames, [](const RecordedFrame& frame) { return frame.bytes.size() <= 1; });
   if (without_bytes || (table && one_value_each)) {
-    why = table ? "no column found for the bytes: name it Hex" : "no frames found";
+    std::string why = table ? "no column found for the bytes: name it Hex" : "no frames found";
     for (const std::string& note : recording->notes) why += "; " + note;
-    return {};
+    return Trouble{std::move(why)};
   }
   return recording;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/serial_format.hpp"
 #include "interpreter/base/stop_token.hpp"
 #include "interpreter/base/time.hpp"
@@ -78,11 +79,11 @@ struct RecordingForm {
   std::string_view meaning;  ///< for the help
   bool is_log;               ///< CSV counts as one: analysers write it, but so do programs
   bool (*looks_like)(std::string_view bytes);
-  std::optional<LineRecording> (*read)(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+  Result<LineRecording> (*read)(std::string_view bytes, const ReadingChoices& choices);
 };
 std::span<const RecordingForm> recording_forms();
 
-/// Reads a file of any of the forms. Returns nothing and sets `why` if `bytes` have none of them, or no frame.
-std::optional<LineRecording> read_recording(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+/// Reads a file of any of the forms. Trouble if `bytes` have none of them, or no frame.
+Result<LineRecording> read_recording(std::string_view bytes, const ReadingChoices& choices);
 
 }  // namespace s7200::tools

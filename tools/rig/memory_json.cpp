@@ -67,9 +67,8 @@ Json rows_of(const std::vector<Kept>& kept) {
 /// Takes one row over; what is wrong with it, or nothing.
 std::string take_row(const std::string& address, const std::string& hex, const std::vector<Kept>& kept,
                      const CpuModel& model) {
-  std::string why;
-  const auto place = parse_range(address, model, why);
-  if (!place) return why;
+  const auto place = parse_range(address, model);
+  if (!place) return place.why();
   if (place->width == Width::Bit || place->count != 1 || hex.size() % 2 != 0)
     return fmt::format("'{}' has no whole bytes", stl::shortened(address));
   const std::uint64_t count = hex.size() / 2;
@@ -103,9 +102,8 @@ void take_clock(JsonTaker& taker, const Json& json, RetentiveMemory& memory) {
 /// Takes forced values: `{"I0.0": 1, "VW10": 5}`
 std::string take_forced(const Json& values, const CpuModel& model, Forcing& forcing) {
   for (const auto& [address, value] : values.items()) {
-    std::string why;
-    const auto place = parse_range(address, model, why);
-    if (!place) return why;
+    const auto place = parse_range(address, model);
+    if (!place) return place.why();
     if (place->count != 1 || !forcing::possible(*place))
       return fmt::format("'{}' cannot be forced", stl::shortened(address));
     const auto forced = parse_value(*place, shown(value));
@@ -146,17 +144,15 @@ std::string memory_to_json(const RetentiveMemory& memory, const CpuModel& model)
   return json.dump(2) + "\n";
 }
 
-std::optional<RetentiveMemory> memory_from_json(std::string_view text, const CpuModel& model, std::string& why) {
+Result<RetentiveMemory> memory_from_json(std::string_view text, const CpuModel& model) {
   RetentiveMemory memory;
-  const auto json = parse_json(text, why);
-  if (!json || !json->is_object()) {
-    why = fmt::format("it is not the memory of a CPU (no JSON object{})", json ? "" : ": it is " + why);
-    return {};
-  }
+  const auto json = parse_json(text);
+  if (!json || !json->is_object())
+    return trouble("it is not the memory of a CPU (no JSON object{})", json ? "" : ": it is " + json.why());
   JsonTaker taker;
-  why = take(taker, *json, model, memory);
-  if (!taker.fine()) why = fmt::format("it is damaged: {}", taker.why());
-  if (!why.empty()) return {};
+  std::string why = take(taker, *json, model, memory);
+  if (!taker.fine()) return trouble("it is damaged: {}", taker.why());
+  if (!why.empty()) return Trouble{std::move(why)};
   return memory;
 }
 
@@ -168,12 +164,11 @@ void add_kept_memory(Json& json, const RetentiveMemory& memory, const CpuModel& 
 
 std::optional<RetentiveMemory> take_kept_memory(JsonTaker& taker, const Json& json, const CpuModel& model) {
   if (!JsonTaker::has(json, "memory")) return {};
-  std::string why;
-  auto memory = memory_from_json(in_one_line(taker.member(json, "memory")), model, why);
-  if (!memory) return taker.fail(why), std::nullopt;
+  auto memory = memory_from_json(in_one_line(taker.member(json, "memory")), model);
+  if (!memory) return taker.fail(memory.why()), std::nullopt;
   memory->ram_lost = taker.truth_at(json, "memory_lost");
   memory->power_off = taker.number_at<Time>(json, "power_off", {0, kLongestDuration});
-  return memory;
+  return *std::move(memory);
 }
 
 }  // namespace s7200::tools

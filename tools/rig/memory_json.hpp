@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/cpu/state.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "tools/json/json_taker.hpp"
@@ -18,8 +19,8 @@ std::string memory_beginning();
 /// JSON: `"ram"` and `"eeprom"` have the bytes that are not 0, in hex, by the address of the first.
 std::string memory_to_json(const RetentiveMemory& memory, const CpuModel& model);
 
-/// Returns nothing and sets `why` if the text is not such a memory, or that of another CPU.
-std::optional<RetentiveMemory> memory_from_json(std::string_view json, const CpuModel& model, std::string& why);
+/// Trouble if the text is not such a memory, or that of another CPU.
+Result<RetentiveMemory> memory_from_json(std::string_view json, const CpuModel& model);
 
 /// The same within other JSON, with how power came back: `memory`, `memory_lost` and `power_off`.
 void add_kept_memory(nlohmann::ordered_json& json, const RetentiveMemory& memory, const CpuModel& model);

@@ -53,10 +53,11 @@ const Programs::Text& Programs::text_of(const std::string& path) {
   const std::string name = from_input ? "standard input" : path;
   const auto [found, added] = texts_.try_emplace(name);
   if (!added) return found->second;
-  std::string why;
-  const auto bytes = from_input ? read_standard_input(why) : read_file(path, why);
-  if (bytes) found->second.text = read_source(*bytes, name, why);
-  if (!found->second.text) found->second.why = fmt::format("cannot read {}: {}", name, why);
+  auto text = (from_input ? read_standard_input() : read_file(path)).and_then([&](const std::string& bytes) {
+    return read_source(bytes, name);
+  });
+  if (!text) found->second.why = fmt::format("cannot read {}: {}", name, text.why());
+  found->second.text = std::move(text).if_any();
   return found->second;
 }
 
@@ -73,9 +74,8 @@ std::optional<stl::ParseResult> Programs::read(const std::vector<std::string>& f
   if (!messages.empty()) return {};
   SourceText project = join_files(std::move(texts));
   if (!repairs.empty()) {
-    std::string why;
     std::vector<std::string> unknown;
-    repair(project.parsed.source, parse_repairs(repairs, why), unknown);
+    repair(project.parsed.source, parse_repairs(repairs).value_or(Repairs{}), unknown);
     for (const std::string& id : unknown)
       add_error(messages, fmt::format("repair {}: {} has no such slip", id, project.parsed.source.name));
   }
@@ -211,10 +211,9 @@ using SlaveMaker = decltype(Bench::make_slave);
 /// Of a PLC of another make, with what it is told by --plc. Each scenario has one of its own.
 SlaveMaker peer_slaves(const std::string& model, const std::string& name, const SuiteSettings& suite) {
   const auto make = [model, settings = suite.plc, protocol = suite.protocol] {
-    std::string why;
-    auto plc = make_other_plc(protocol, model, settings, why);
-    if (!plc) throw std::invalid_argument(why);
-    return plc;
+    auto plc = make_other_plc(protocol, model, settings);
+    if (!plc) throw std::invalid_argument(plc.why());
+    return *std::move(plc);
   };
   make();  // or it throws
   return [make, name, stop = suite.stop](const Scenario& scenario) {
@@ -226,9 +225,8 @@ SlaveMaker peer_slaves(const std::string& model, const std::string& name, const 
 
 /// Of a system without an S7-200, on the line `at`. Null, with messages, if there is no such line.
 SlaveMaker peer_lines(SystemPlan plan, const std::string& path, const std::string& at, StopToken stop, Messages& messages) {
-  std::string why;
-  const auto line = find_line(plan, at, why);
-  if (line) why = why_no_other_plc(plan, *line);
+  const auto line = find_line(plan, at);
+  const std::string why = line ? why_no_other_plc(plan, *line) : line.why();
   if (!why.empty()) return add_error(messages, fmt::format("{}: {}{}", path, why, line ? "" : " (--at NAME)")), nullptr;
   forget_files(plan);
   return [plan = std::make_shared<const SystemPlan>(std::move(plan)), line = *line, path, stop](const Scenario& scenario) {
@@ -239,9 +237,8 @@ SlaveMaker peer_lines(SystemPlan plan, const std::string& path, const std::strin
 /// Of a system file. Null, with messages, if it cannot be had.
 SlaveMaker system_slaves(const std::string& path, const SuiteSettings& settings, Messages& messages) {
   const auto refuse = [&](const std::string& why) { return add_error(messages, why), nullptr; };
-  std::string why;
-  const auto text = read_text(path, why);
-  if (!text) return refuse(fmt::format("cannot read {}: {}", path, why));
+  const auto text = read_text(path);
+  if (!text) return refuse(fmt::format("cannot read {}: {}", path, text.why()));
   SystemFile file = read_system(*text, path, host_files());
   if (!file.ok()) {
     const auto add = [&](const SystemFile::Text& one) {
@@ -255,9 +252,10 @@ SlaveMaker system_slaves(const std::string& path, const SuiteSettings& settings,
     return refuse(fmt::format("bridge '{}' of {} follows the clock, which 's7200 test' does not: leave it out",
                               file.plan.bridges.front().name, path));
   if (file.plan.plcs.empty()) return peer_lines(std::move(file.plan), path, settings.at, settings.stop, messages);
-  const auto spot = find_spot(file.plan, settings.at, why);
-  if (!spot) return refuse(fmt::format("{}: {} (--at NAME)", path, why));
-  if (why = why_no_room(file.plan, spot->line); !why.empty()) return refuse(fmt::format("{}: {}", path, why));
+  const auto spot = find_spot(file.plan, settings.at);
+  if (!spot) return refuse(fmt::format("{}: {} (--at NAME)", path, spot.why()));
+  if (const std::string why = why_no_room(file.plan, spot->line); !why.empty())
+    return refuse(fmt::format("{}: {}", path, why));
   forget_files(file.plan);
   if (settings.every_scan) run_every_scan(file.plan);
   return [plan = std::make_shared<const SystemPlan>(std::move(file.plan)), spot = *spot, path, stop = settings.stop](

@@ -30,14 +30,13 @@ std::vector<Spot> spots_of(const Scenario& scenario, const SystemPlan& plan) {
   const auto add = [&](const std::optional<Spot>& spot) {
     if (spot && std::ranges::find(spots, *spot) == spots.end()) spots.push_back(*spot);
   };
-  std::string why;
-  add(find_spot(plan, scenario.on, why));
+  add(find_spot(plan, scenario.on).if_any());
   for (const Step& step : scenario.steps) {
-    if (step.spot) add(find_spot(plan, plan.lines[step.spot->line].name, why));
+    if (step.spot) add(find_spot(plan, plan.lines[step.spot->line].name).if_any());
     add(step.spot);
   }
   for (const LinePlan& line : plan.lines)
-    if (spots.empty()) add(find_spot(plan, line.name, why));
+    if (spots.empty()) add(find_spot(plan, line.name).if_any());
   return spots;
 }
 

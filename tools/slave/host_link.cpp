@@ -58,9 +58,8 @@ SerialLink::SerialLink(std::string path, const SerialFormat& format, StopToken s
 
 void SerialLink::open() {
   close();
-  std::string why;
-  auto device = SerialDevice::open(path_, format_, why);
-  if (!device) throw SlaveUnreachable(fmt::format("cannot open {}: {}", path_, why));
+  auto device = SerialDevice::open(path_, format_);
+  if (!device) throw SlaveUnreachable(fmt::format("cannot open {}: {}", path_, device.why()));
   device_ = std::make_unique<SerialDevice>(std::move(*device));
 }
 
@@ -72,8 +71,7 @@ void SerialLink::gone(const std::string& why) {
 }
 
 void SerialLink::read(std::vector<Character>& characters) {
-  std::string why;
-  if (!device_->read(characters, why)) gone(why);
+  if (const auto done = device_->read(characters); !done) gone(done.why());
 }
 
 bool SerialLink::drive_sync(bool high) { return device_->drive_dtr(high); }
@@ -81,9 +79,8 @@ bool SerialLink::drive_sync(bool high) { return device_->drive_dtr(high); }
 void SerialLink::drain() { device_->drain(); }
 
 std::size_t SerialLink::write_some(std::span<const std::uint8_t> bytes) {
-  std::string why;
-  const auto taken = device_->write(bytes, why);
-  if (!taken) gone(why);
+  const auto taken = device_->write(bytes);
+  if (!taken) gone(taken.why());
   return *taken;
 }
 
@@ -96,11 +93,11 @@ std::string TcpLink::name() const {
 
 void TcpLink::open() {
   close();
-  std::string why;
-  connection_ = TcpConnection::open(host_, port_, std::chrono::nanoseconds(kPatience), stop_, why);
-  if (!connection_)
-    throw SlaveUnreachable(why.empty() ? fmt::format("{} was not reached before the interruption", name())
-                                       : fmt::format("cannot reach {}: {}", name(), why));
+  auto connection = TcpConnection::open(host_, port_, std::chrono::nanoseconds(kPatience), stop_);
+  if (!connection)
+    throw SlaveUnreachable(connection.why().empty() ? fmt::format("{} was not reached before the interruption", name())
+                                                    : fmt::format("cannot reach {}: {}", name(), connection.why()));
+  connection_ = *std::move(connection);
 }
 
 void TcpLink::gone(const std::string& why) {
@@ -110,16 +107,14 @@ void TcpLink::gone(const std::string& why) {
 
 void TcpLink::read(std::vector<Character>& characters) {
   std::array<std::uint8_t, 4096> bytes{};
-  std::string why;
-  const auto count = connection_->read(bytes, why);
-  if (!count) gone(why);
+  const auto count = connection_->read(bytes);
+  if (!count) gone(count.why());
   for (std::size_t i = 0; i < *count; ++i) characters.push_back({bytes[i], false});
 }
 
 std::size_t TcpLink::write_some(std::span<const std::uint8_t> bytes) {
-  std::string why;
-  const auto count = connection_->write(bytes, why);
-  if (!count) gone(why);
+  const auto count = connection_->write(bytes);
+  if (!count) gone(count.why());
   return *count;
 }
 

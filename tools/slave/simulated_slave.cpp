@@ -34,14 +34,14 @@ bool SimulatedSlave::get_ready(Time limit) {
   return in_stop_too_ && goes_on_in_stop() && run_until(simulation_.time() + pause());
 }
 
-bool SimulatedSlave::wait_until_ready(Time after, std::string& why) {
-  const bool ready = after == kNever ? get_ready(kReadyWithin) : run_ready_until(after);
-  if (!ready && after == kNever && simulation_.cpu().state().mode == Mode::Run && !stop_requested())
-    why = fmt::format(
+Result<> SimulatedSlave::wait_until_ready(Time after) {
+  if (after == kNever ? get_ready(kReadyWithin) : run_ready_until(after)) return {};
+  if (after == kNever && simulation_.cpu().state().mode == Mode::Run && !stop_requested())
+    return trouble(
         "the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
         "sends all the same",
         format_duration(pause()), format_duration(kReadyWithin));
-  return ready;
+  return Trouble{};
 }
 
 std::string SimulatedSlave::note_on_port(bool wants_freeport) const {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "interpreter/base/result.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/slave/master_in_simulation.hpp"
 
@@ -25,9 +26,9 @@ class SimulatedSlave final : public MasterInSimulation {
   bool get_ready(Time limit);
 
   /// Runs until the first scan has ended and the line has been quiet for as long as a master leaves it, or until `after` if
-  /// that is not kNever. Returns false when the CPU stopped and nothing answers there, after Ctrl-C, and, with `why` set,
+  /// that is not kNever. Trouble with nothing to say when the CPU stopped and nothing answers there, and after Ctrl-C; and
   /// when the moment never comes.
-  bool wait_until_ready(Time after, std::string& why);
+  Result<> wait_until_ready(Time after);
 
   /// A note if the program has not switched its port to Freeport mode by now, or has where PPI is wanted; otherwise empty.
   std::string note_on_port(bool wants_freeport = true) const;

@@ -48,9 +48,9 @@ std::unique_ptr<SlaveInRig> join_spot(const SystemPlan& plan, const Spot& spot, 
   auto slave = std::make_unique<SimulatedSlave>(rig->simulation(), on_line(master, plan.lines[spot.line]),
                                                 place_text(path, plan, spot), another_answers(plan, spot));
   if (after == kNever) run_first_scans(*rig, kReadyWithin);
-  std::string why;
-  if (!slave->wait_until_ready(after, why) && !slave->stop_requested())
-    throw SlaveUnreachable(fmt::format("{}: {}", slave->name(), why.empty() ? "the CPU went to STOP" : why));
+  const auto ready = slave->wait_until_ready(after);
+  if (!ready && !slave->stop_requested())
+    throw SlaveUnreachable(fmt::format("{}: {}", slave->name(), ready.why().empty() ? "the CPU went to STOP" : ready.why()));
   SlaveInRig::Masters masters;
   masters[spot.line] = std::move(slave);
   return std::make_unique<SlaveInRig>(std::move(rig), std::move(masters), spot.line);

@@ -79,20 +79,15 @@ std::string scenario_text(const TrialScenario& scenario, const Program& program)
   return text + scenario.end;
 }
 
-std::optional<std::vector<std::string>> findings_of(const std::string& text, const std::string& path,
-                                                    const std::shared_ptr<const Program>& program, std::string& why) {
+Result<std::vector<std::string>> findings_of(const std::string& text, const std::string& path,
+                                             const std::shared_ptr<const Program>& program) {
   const ScenarioFile file = read_scenarios(text, path);
-  if (!file.diagnostics.empty() || file.scenarios.size() != 1) {
-    why = file.diagnostics.empty() ? "it has no steps" : file.diagnostics.front().message;
-    return {};
-  }
+  if (!file.diagnostics.empty() || file.scenarios.size() != 1)
+    return Trouble{file.diagnostics.empty() ? "it has no steps" : file.diagnostics.front().message};
   const ScenarioResult result = run_scenario(file.scenarios.front(), {.program = program});
   std::vector<std::string> findings;
   for (const Finding& finding : result.findings) {
-    if (finding.of_run) {
-      why = finding_line(file.scenarios.front(), finding);
-      return {};
-    }
+    if (finding.of_run) return Trouble{finding_line(file.scenarios.front(), finding)};
     findings.push_back(finding_line(file.scenarios.front(), finding));
   }
   return findings;

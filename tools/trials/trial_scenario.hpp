@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/program/program.hpp"
 #include "tools/trials/trial.hpp"
 
@@ -30,9 +31,9 @@ struct TrialScenario {
 
 std::string scenario_text(const TrialScenario& scenario, const Program& program);
 
-/// Runs a text as `s7200 test` does. Returns what it found, empty if it passes; nothing, and `why`, if it cannot be run.
-std::optional<std::vector<std::string>> findings_of(const std::string& text, const std::string& path,
-                                                    const std::shared_ptr<const Program>& program, std::string& why);
+/// Runs a text as `s7200 test` does. Returns what it found, empty if it passes; trouble if it cannot be run.
+Result<std::vector<std::string>> findings_of(const std::string& text, const std::string& path,
+                                             const std::shared_ptr<const Program>& program);
 
 /// The characters of a frame in hex, with `p` after the one whose parity is wrong: `01 03p 00`
 std::string frame_text(const Stimulus& frame);

@@ -31,45 +31,39 @@ class TextReader {
     std::vector<Byte> bytes;
     while (place_ < text_.size() && errors.empty()) {
       const std::size_t begin = place_;
-      std::string why;
-      const Byte byte = next(why);
-      if (why.empty() && bytes.size() == serial::kLongestRawFrame)
-        why = fmt::format("a frame has {} bytes at most", serial::kLongestRawFrame);
-      if (!why.empty()) errors.push_back({begin + 1, why});
-      bytes.push_back(byte);
+      const auto byte = next();
+      if (!byte)
+        errors.push_back({begin + 1, byte.why()});
+      else if (bytes.size() == serial::kLongestRawFrame)
+        errors.push_back({begin + 1, fmt::format("a frame has {} bytes at most", serial::kLongestRawFrame)});
+      bytes.push_back(byte.value_or(Byte{}));
     }
     if (bytes.empty()) errors.push_back({1, "a frame has one byte at least"});
     return bytes;
   }
 
  private:
-  Byte next(std::string& why) {
+  Result<Byte> next() {
     const stl::Character first = stl::first_character(text_.substr(place_));
-    if (first.code >= 0x80) {
-      why = fmt::format("'{}' is not an ASCII character; write the byte that the program uses for it, such as \\xE4",
-                        text_.substr(place_, first.bytes));
-      return {};
-    }
+    if (first.code >= 0x80)
+      return trouble("'{}' is not an ASCII character; write the byte that the program uses for it, such as \\xE4",
+                     text_.substr(place_, first.bytes));
     const char c = text_[place_++];
-    return c == '\\' ? escape(why) : static_cast<std::uint8_t>(c);
+    return c == '\\' ? escape() : Byte{static_cast<std::uint8_t>(c)};
   }
 
-  Byte escape(std::string& why) {
+  Result<Byte> escape() {
     const char c = place_ < text_.size() ? text_[place_++] : ' ';
-    if (c == '?' && any_allowed_) return {};
-    if (c == 'x') return hex(why);
+    if (c == '?' && any_allowed_) return Byte{};
+    if (c == 'x') return hex();
     for (const Escape& escape : kEscapes)
       if (escape.written == c) return static_cast<std::uint8_t>(escape.meant);
-    why = fmt::format("\\ is followed by r, n, t, xHH, \\, ' or \"{}", any_allowed_ ? ", or by ? for any character" : "");
-    return {};
+    return trouble("\\ is followed by r, n, t, xHH, \\, ' or \"{}", any_allowed_ ? ", or by ? for any character" : "");
   }
 
-  Byte hex(std::string& why) {
+  Result<Byte> hex() {
     const serial::ParsedFrame digits = serial::parse_hex_frame(text_.substr(place_, 2));
-    if (text_.size() - place_ < 2 || !digits.ok()) {
-      why = "\\x is followed by two hex digits";
-      return {};
-    }
+    if (text_.size() - place_ < 2 || !digits.ok()) return Trouble{"\\x is followed by two hex digits"};
     place_ += 2;
     return digits.frame[0].byte;
   }
@@ -103,12 +97,11 @@ serial::ParsedFrame parse_text(std::string_view text) {
   return parsed;
 }
 
-std::optional<std::vector<Byte>> parse_text_pattern(std::string_view text, std::string& why) {
+Result<std::vector<Byte>> parse_text_pattern(std::string_view text) {
   std::vector<serial::FrameError> errors;
   std::vector<Byte> pattern = TextReader(text, true).read(errors);
   if (errors.empty()) return pattern;
-  why = errors[0].message;
-  return {};
+  return Trouble{errors[0].message};
 }
 
 serial::ParsedFrame parse_hex_or_quoted(std::string_view text) {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "serial_sim/modbus/request.hpp"
 
 namespace s7200::tools {
@@ -17,8 +18,8 @@ namespace s7200::tools {
 /// Reads a frame from a text such as `HELLO\r`: one to 1024 bytes.
 serial::ParsedFrame parse_text(std::string_view text);
 
-/// Reads an expected text, in which `\?` is any byte. Returns nothing and sets `why` if it is not one.
-std::optional<std::vector<std::optional<std::uint8_t>>> parse_text_pattern(std::string_view text, std::string& why);
+/// Reads an expected text, in which `\?` is any byte. Trouble if it is not one.
+Result<std::vector<std::optional<std::uint8_t>>> parse_text_pattern(std::string_view text);
 
 /// Reads a frame as it is written where hex is the rule: in quotation marks, single or double, it is text.
 serial::ParsedFrame parse_hex_or_quoted(std::string_view text);

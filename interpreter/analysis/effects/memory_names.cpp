@@ -70,8 +70,7 @@ Bits bits_of_area(const CpuModel& model, Area area) {
 
 std::optional<Bits> bits_of(const Program& program, const stl::Symbol& symbol) {
   if (!symbol.value || !std::holds_alternative<stl::Address>(*symbol.value)) return {};
-  std::string why;
-  const auto range = parse_range(stl::to_text(stl::Operand{*symbol.value}), AddressSpace(*program.model), why);
+  const auto range = parse_range(stl::to_text(stl::Operand{*symbol.value}), AddressSpace(*program.model));
   if (!range) return {};
   if (range->width == Width::Bit) return Bits{first_bit_of(range->at) + range->bit, 1};
   return as_named({first_bit_of(range->at), std::uint64_t{range->bytes()} * 8});

@@ -83,16 +83,12 @@ std::optional<std::uint8_t> hex_digit(char c) {
   return {};
 }
 
-std::optional<Time> parse_duration_in(std::string_view text, Between<Time> range, std::string& why) {
+Result<Time> parse_duration_in(std::string_view text, Between<Time> range) {
   const auto duration = parse_duration_or_never(text);
-  if (!duration)
-    why = fmt::format("'{}' is not a duration; write for example 250ms, 2s, 1h", stl::shortened(text));
-  else if (!range.has(*duration))
-    why = fmt::format("'{}' is out of range ({} to {})", stl::shortened(text), format_duration(range.least),
-                      format_duration(range.most));
-  else
-    return duration;
-  return {};
+  if (!duration) return trouble("'{}' is not a duration; write for example 250ms, 2s, 1h", stl::shortened(text));
+  if (range.has(*duration)) return *duration;
+  return trouble("'{}' is out of range ({} to {})", stl::shortened(text), format_duration(range.least),
+                 format_duration(range.most));
 }
 
 }  // namespace s7200

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/time.hpp"
 
 namespace s7200 {
@@ -52,7 +53,7 @@ std::optional<std::uint8_t> hex_digit(char c);
 /// The longest duration that options and actions take: more than a year. Sums of a few hundred such times still fit a Time.
 inline constexpr Time kLongestDuration = Time{10'000} * 3600 * kSecond;
 
-/// A duration in the range. Returns nothing and sets `why` for anything else.
-std::optional<Time> parse_duration_in(std::string_view text, Between<Time> range, std::string& why);
+/// A duration in the range. Trouble for anything else.
+Result<Time> parse_duration_in(std::string_view text, Between<Time> range);
 
 }  // namespace s7200

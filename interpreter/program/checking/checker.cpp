@@ -118,10 +118,10 @@ class Checker {
       if (std::string file = stl::in_file(source_, symbol.position.line).file; tables.empty() || tables.back() != file)
         tables.push_back(std::move(file));
     const std::vector<std::string> near = symbols_like(written, own);
-    return fmt::format("{} {} it{}; add it there, or write the address itself", fmt::join(tables, ", "),
-                       tables.size() == 1 ? "does not have" : "do not have",
-                       near.empty() ? ""
-                                    : fmt::format("; the nearest {} {}", near.size() == 1 ? "is" : "are", fmt::join(near, ", ")));
+    return fmt::format(
+        "{} {} it{}; add it there, or write the address itself", fmt::join(tables, ", "),
+        tables.size() == 1 ? "does not have" : "do not have",
+        near.empty() ? "" : fmt::format("; the nearest {} {}", near.size() == 1 ? "is" : "are", fmt::join(near, ", ")));
   }
 
   /// Symbols of the user that have a word in common with a name, the longest such word first.
@@ -418,9 +418,8 @@ class Checker {
       const stl::Position &letters = statement.operands[i].position, &number = statement.operands[i + 1].position;
       const auto* name = std::get_if<stl::Name>(&statement.operands[i].value);
       if (!name || written_at({letters.line, letters.column + letters.length, 1}) != " ") continue;
-      std::string why;
       const std::string joined = name->text + written_at(number);
-      const auto operand = stl::parse_operand(joined, why);
+      const auto operand = stl::parse_operand(joined);
       if (!operand || !std::holds_alternative<stl::Address>(operand->value)) continue;
       error({letters.line, letters.column, number.column + number.length - letters.column},
             "there is a blank in this address", fmt::format("write {}", joined));

@@ -424,9 +424,9 @@ stl::ParseResult ladder_to_stl(const stl::LadderPage& page) {
   return result;
 }
 
-std::optional<SourceText> read_drawings(std::string_view bytes, const std::string& name, std::string& why) {
-  const auto decoded = stl::decode(bytes, why);
-  if (!decoded) return {};
+Result<SourceText> read_drawings(std::string_view bytes, const std::string& name) {
+  const auto decoded = stl::decode(bytes);
+  if (!decoded) return decoded.trouble();
   return SourceText{ladder_to_stl(stl::read_ladder(decoded->text, name)), decoded->encoding, SourceKind::Document};
 }
 

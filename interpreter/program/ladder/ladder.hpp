@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/program/load.hpp"
 #include "interpreter/stl/drawings/ladder.hpp"
 
@@ -19,8 +20,8 @@ namespace s7200 {
 /// say why.
 stl::ParseResult ladder_to_stl(const stl::LadderPage& page);
 
-/// The drawings in a text in any of the encodings of stl/text/encoding.hpp, as STL. Returns nothing and sets `why` if the bytes
-/// are not text.
-std::optional<SourceText> read_drawings(std::string_view bytes, const std::string& name, std::string& why);
+/// The drawings in a text in any of the encodings of stl/text/encoding.hpp, as STL. Trouble if the
+/// bytes are not text.
+Result<SourceText> read_drawings(std::string_view bytes, const std::string& name);
 
 }  // namespace s7200

@@ -276,11 +276,11 @@ class Comparison {
 
 }  // namespace
 
-std::optional<LadderComparison> compare_drawings(std::string_view bytes, const std::string& name, std::string& why) {
-  const auto drawn = read_drawings(bytes, name, why);
-  if (!drawn) return {};
-  const auto listed = read_source(bytes, name, why, true);
-  if (!listed) return {};
+Result<LadderComparison> compare_drawings(std::string_view bytes, const std::string& name) {
+  const auto drawn = read_drawings(bytes, name);
+  if (!drawn) return drawn.trouble();
+  const auto listed = read_source(bytes, name, true);
+  if (!listed) return listed.trouble();
   LadderComparison result;
   result.source = drawn->parsed.source;
   result.encoding = drawn->encoding;

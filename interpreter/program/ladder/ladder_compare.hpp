@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "interpreter/base/diagnostic.hpp"
+#include "interpreter/base/result.hpp"
 
 namespace s7200 {
 
@@ -18,7 +19,7 @@ struct LadderComparison {
 };
 
 /// Compares routine by routine, and in a routine the networks in their order, whether or not the STL has NETWORK lines.
-/// Returns nothing and sets `why` if the bytes are not text.
-std::optional<LadderComparison> compare_drawings(std::string_view bytes, const std::string& name, std::string& why);
+/// Trouble if the bytes are not text.
+Result<LadderComparison> compare_drawings(std::string_view bytes, const std::string& name);
 
 }  // namespace s7200

@@ -31,8 +31,7 @@ constexpr std::array<std::pair<std::string_view, Notation>, 4> kNotations{{{"iec
 
 /// Quotes for what a listing would take for something else: `K1` is a constant, `E1` an address.
 std::string quoted_if_needed(const std::string& name) {
-  std::string why;
-  const auto read = stl::parse_operand(name, why);
+  const auto read = stl::parse_operand(name);
   const auto* plain = read ? std::get_if<stl::Name>(&read->value) : nullptr;
   const bool word = std::ranges::all_of(name, [](char c) { return stl::is_letter(c) || stl::is_digit(c) || c == '_'; });
   return plain && word ? name : fmt::format("\"{}\"", name);

@@ -135,10 +135,9 @@ std::optional<TimeTable> load_times(const CpuModel& model, const std::string& ta
                                  names_of_times(model)));
     return {};
   }
-  std::string why;
-  const auto csv = stl::read_decoded(files, table, why);
+  const auto csv = stl::read_decoded(files, table);
   if (!csv) {
-    errors.push_back(fmt::format("cannot read {}: {}; tables for CPU {} that have a name: {}", table, why, model.name,
+    errors.push_back(fmt::format("cannot read {}: {}; tables for CPU {} that have a name: {}", table, csv.why(), model.name,
                                  names_of_times(model)));
     return {};
   }

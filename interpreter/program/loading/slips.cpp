@@ -107,16 +107,13 @@ std::vector<Slip> find_slips(const stl::Source& source) {
   return slips;
 }
 
-Repairs parse_repairs(std::string_view text, std::string& why) {
+Result<Repairs> parse_repairs(std::string_view text) {
   Repairs repairs{.all = text == "all"};
   while (!repairs.all && text != "none") {
     const std::size_t end = std::min(text.find(','), text.size());
     const std::string id = stl::upper_case(stl::trim(text.substr(0, end)));
     const bool number = id.size() > 1 && id.front() == 'R' && std::all_of(id.begin() + 1, id.end(), stl::is_digit);
-    if (!number) {
-      why = fmt::format("'{}' is not a repair; write for example R1,R2 or all", stl::shortened(id));
-      return {};
-    }
+    if (!number) return trouble("'{}' is not a repair; write for example R1,R2 or all", stl::shortened(id));
     repairs.ids.insert(id);
     if (end == text.size()) break;
     text.remove_prefix(end + 1);

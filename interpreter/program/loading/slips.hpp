@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/stl/ast.hpp"
 
 namespace s7200 {
@@ -34,8 +35,8 @@ struct Repairs {
   bool operator==(const Repairs&) const = default;
 };
 
-/// Reads `R1,R2`, `all` or `none`. Sets `why` if it is neither.
-Repairs parse_repairs(std::string_view text, std::string& why);
+/// Reads `R1,R2`, `all` or `none`. Trouble if it is neither.
+Result<Repairs> parse_repairs(std::string_view text);
 
 /// Repairs what is asked for, and returns all slips of the source, the repaired ones marked. Ids that the source does not
 /// have are put into `unknown`.

@@ -20,42 +20,35 @@ struct Rate {
 };
 constexpr std::array kRates{Rate{9600, kEveryCpu}, Rate{19200, kEveryCpu}, Rate{187500, kCpu22x}};
 
-std::optional<std::uint32_t> parse_rate(std::string_view text, const CpuModel& model, std::string& why) {
+Result<std::uint32_t> parse_rate(std::string_view text, const CpuModel& model) {
   const auto baud = parse_decimal<std::uint32_t>(text);
   for (const Rate& rate : kRates) {
     if (rate.baud != baud) continue;
-    if ((rate.cpus & model.self) != 0) return baud;
-    why = needs(fmt::format("PPI at {} baud needs", rate.baud), rate.cpus);
-    return {};
+    if ((rate.cpus & model.self) != 0) return *baud;
+    return Trouble{needs(fmt::format("PPI at {} baud needs", rate.baud), rate.cpus)};
   }
-  why = fmt::format("'{}' is not a rate of PPI; write {}", stl::shortened(text), ppi_rates_text());
-  return {};
+  return trouble("'{}' is not a rate of PPI; write {}", stl::shortened(text), ppi_rates_text());
 }
 
-std::optional<std::uint8_t> parse_station(std::string_view text, const CpuModel&, std::string& why) {
+Result<std::uint8_t> parse_station(std::string_view text, const CpuModel&) {
   const auto station = parse_decimal<std::uint8_t>(text);
-  if (station && *station >= 1 && *station <= ppi::kLastStation) return station;
-  why = fmt::format("'{}' is not a PPI station from 1 to {}", stl::shortened(text), ppi::kLastStation);
-  return {};
+  if (station && *station >= 1 && *station <= ppi::kLastStation) return *station;
+  return trouble("'{}' is not a PPI station from 1 to {}", stl::shortened(text), ppi::kLastStation);
 }
 
 /// Calls a function for one value of each port, or for two that are apart: port 0 and port 1.
 template <class Each>
-std::optional<std::array<Each, kPorts.size()>> parse_ports(std::string_view text, const CpuModel& model, std::string& why,
-                                                           std::string_view what,
-                                                           std::optional<Each> (*parse)(std::string_view, const CpuModel&,
-                                                                                        std::string&)) {
+Result<std::array<Each, kPorts.size()>> parse_ports(std::string_view text, const CpuModel& model, std::string_view what,
+                                                    Result<Each> (*parse)(std::string_view, const CpuModel&)) {
   const std::size_t comma = text.find(',');
-  const auto first = parse(stl::trim(text.substr(0, comma)), model, why);
-  if (!first) return {};
+  const auto first = parse(stl::trim(text.substr(0, comma)), model);
+  if (!first) return first.trouble();
   if (comma == std::string_view::npos) return std::array{*first, *first};
-  if (model.ports < kPorts.size()) {
-    why =
-        fmt::format("CPU {} has no port 1 for the second {}; a second port needs {}", model.name, what, to_text(kTwoPorts));
-    return {};
-  }
-  const auto second = parse(stl::trim(text.substr(comma + 1)), model, why);
-  return second ? std::optional(std::array{*first, *second}) : std::nullopt;
+  if (model.ports < kPorts.size())
+    return trouble("CPU {} has no port 1 for the second {}; a second port needs {}", model.name, what, to_text(kTwoPorts));
+  const auto second = parse(stl::trim(text.substr(comma + 1)), model);
+  if (!second) return second.trouble();
+  return std::array{*first, *second};
 }
 
 bool contains(const RetentiveRange& whole, const RetentiveRange& part) {
@@ -63,17 +56,16 @@ bool contains(const RetentiveRange& whole, const RetentiveRange& part) {
 }
 
 /// `VB0:100`, `T0:32`
-std::optional<RetentiveRange> parse_retentive_range(std::string_view text, const CpuModel& model, std::string& why) {
-  const auto place = parse_range(text, model, why);
-  if (!place) return {};
+Result<RetentiveRange> parse_retentive_range(std::string_view text, const CpuModel& model) {
+  const auto place = parse_range(text, model);
+  if (!place) return place.trouble();
   const bool numbered = info(place->area).element != 0;
   const RetentiveRange range{place->area, place->number, numbered ? place->count : place->bytes()};
   const auto possible = retainable(model);
   const bool fits = std::ranges::any_of(possible, [&](const RetentiveRange& whole) { return contains(whole, range); });
   if (fits && place->width != Width::Bit) return range;
-  why = fmt::format("'{}' cannot be retentive; bytes of V and M, timers of TONR (T0 to T31, T64 to T95) and counters can",
-                    stl::shortened(text));
-  return {};
+  return trouble("'{}' cannot be retentive; bytes of V and M, timers of TONR (T0 to T31, T64 to T95) and counters can",
+                 stl::shortened(text));
 }
 
 template <class Each>
@@ -94,20 +86,19 @@ std::string ppi_rates_text() {
   return text;
 }
 
-std::optional<PpiRates> parse_ppi_rates(std::string_view text, const CpuModel& model, std::string& why) {
-  return parse_ports(text, model, why, "rate", parse_rate);
+Result<PpiRates> parse_ppi_rates(std::string_view text, const CpuModel& model) {
+  return parse_ports(text, model, "rate", parse_rate);
 }
 
-std::optional<SecondRequest> parse_second_request(std::string_view text, std::string& why) {
+Result<SecondRequest> parse_second_request(std::string_view text) {
   for (std::size_t i = 0; i < kSecondRequestWords.size(); ++i)
     if (text == kSecondRequestWords[i]) return static_cast<SecondRequest>(i);
-  why = fmt::format("'{}' is not what a port does with a second request; write {}", stl::shortened(text),
-                    fmt::join(kSecondRequestWords, " or "));
-  return {};
+  return trouble("'{}' is not what a port does with a second request; write {}", stl::shortened(text),
+                 fmt::join(kSecondRequestWords, " or "));
 }
 
-std::optional<PpiStations> parse_ppi_stations(std::string_view text, const CpuModel& model, std::string& why) {
-  return parse_ports(text, model, why, "station", parse_station);
+Result<PpiStations> parse_ppi_stations(std::string_view text, const CpuModel& model) {
+  return parse_ports(text, model, "station", parse_station);
 }
 
 std::string to_text(const PpiRates& rates) { return ports_text(rates); }
@@ -122,18 +113,17 @@ std::vector<RetentiveRange> retainable(const CpuModel& model) {
   return ranges;
 }
 
-std::optional<std::vector<RetentiveRange>> parse_retentive(std::string_view text, const CpuModel& model, std::string& why) {
+Result<std::vector<RetentiveRange>> parse_retentive(std::string_view text, const CpuModel& model) {
   std::vector<RetentiveRange> ranges;
   if (stl::upper_case(stl::trim(text)) == "NONE") return ranges;
   for (std::size_t from = 0, comma = 0; comma != std::string_view::npos; from = comma + 1) {
     comma = text.find(',', from);
-    const auto range = parse_retentive_range(stl::trim(text.substr(from, comma - from)), model, why);
-    if (!range) return {};
+    const auto range = parse_retentive_range(stl::trim(text.substr(from, comma - from)), model);
+    if (!range) return range.trouble();
     ranges.push_back(*range);
   }
   if (ranges.size() <= kMostRetentiveRanges) return ranges;
-  why = fmt::format("{} ranges; a system block has {} at most", ranges.size(), kMostRetentiveRanges);
-  return {};
+  return trouble("{} ranges; a system block has {} at most", ranges.size(), kMostRetentiveRanges);
 }
 
 std::string to_text(const std::vector<RetentiveRange>& ranges) {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/ports.hpp"
 
@@ -24,8 +25,8 @@ using PpiRates = std::array<std::uint32_t, kPorts.size()>;
 /// Addresses on the network, by port.
 using PpiStations = std::array<std::uint8_t, kPorts.size()>;
 
-/// The fate of a request whose master has not fetched the answer to the one before (cpu/ports/ppi.hpp). No system block says it;
-/// it is chosen here, where ports are set.
+/// The fate of a request whose master has not fetched the answer to the one before (cpu/ports/ppi.hpp). No system block says
+/// it; it is chosen here, where ports are set.
 enum class SecondRequest : std::uint8_t {
   Replaces,  ///< it takes the place of the one before
   Refused    ///< there is no resource, as for another master
@@ -44,14 +45,14 @@ struct SystemBlock {
 /// The rates that there are (facts 10.9): `9600, 19200 or, on CPU 22x, 187500`.
 std::string ppi_rates_text();
 
-/// `19200` for each port of the CPU; `9600,187500` for port 0 and port 1. Returns nothing and sets `why` for anything else.
-std::optional<PpiRates> parse_ppi_rates(std::string_view text, const CpuModel& model, std::string& why);
+/// `19200` for each port of the CPU; `9600,187500` for port 0 and port 1. Trouble for anything else.
+Result<PpiRates> parse_ppi_rates(std::string_view text, const CpuModel& model);
 
 /// The same of stations, 1 to 126: `3`; `3,4` for port 0 and port 1.
-std::optional<PpiStations> parse_ppi_stations(std::string_view text, const CpuModel& model, std::string& why);
+Result<PpiStations> parse_ppi_stations(std::string_view text, const CpuModel& model);
 
-/// One of kSecondRequestWords. Returns nothing and sets `why` for anything else.
-std::optional<SecondRequest> parse_second_request(std::string_view text, std::string& why);
+/// One of kSecondRequestWords. Trouble for anything else.
+Result<SecondRequest> parse_second_request(std::string_view text);
 
 /// The most ranges of memory that a system block makes retentive.
 inline constexpr std::size_t kMostRetentiveRanges = 6;
@@ -59,8 +60,8 @@ inline constexpr std::size_t kMostRetentiveRanges = 6;
 /// The memory that a system block of this CPU can make retentive: V, M, the timers of TONR, and the counters.
 std::vector<RetentiveRange> retainable(const CpuModel& model);
 
-/// `VB0:100,MB0:14,T0:32,C5`: up to six ranges of V, M, T or C, or `none`. Returns nothing and sets `why` for anything else.
-std::optional<std::vector<RetentiveRange>> parse_retentive(std::string_view text, const CpuModel& model, std::string& why);
+/// `VB0:100,MB0:14,T0:32,C5`: up to six ranges of V, M, T or C, or `none`. Trouble for anything else.
+Result<std::vector<RetentiveRange>> parse_retentive(std::string_view text, const CpuModel& model);
 
 /// The ranges as they are parsed.
 std::string to_text(const std::vector<RetentiveRange>& ranges);

@@ -20,8 +20,7 @@ namespace {
 
 /// An address as written, or that of a symbol. `S1`, `E1` and the like are symbols if there are any of these names.
 std::optional<stl::Address> find_address(std::string_view text, const AddressSpace& space) {
-  std::string why;
-  const auto operand = stl::parse_operand(text, why);
+  const auto operand = stl::parse_operand(text);
   const bool complete =
       operand && std::holds_alternative<stl::Address>(operand->value) && !stl::may_be_name(operand->value, text);
   const stl::Symbol* symbol = space.symbols && !complete ? stl::find_symbol(*space.symbols, text) : nullptr;
@@ -64,9 +63,8 @@ std::string why_no_address(std::string_view text, const AddressSpace& space) {
 std::optional<std::string_view> beside_symbol(std::string_view text, std::size_t colon, const AddressSpace& space) {
   if (colon == std::string_view::npos || !space.symbols || !stl::find_symbol(*space.symbols, text.substr(0, colon)))
     return {};
-  std::string why;
   const std::string_view rest = text.substr(colon + 1);
-  const auto operand = stl::parse_operand(rest.substr(0, rest.find(':')), why);
+  const auto operand = stl::parse_operand(rest.substr(0, rest.find(':')));
   return operand && std::holds_alternative<stl::Address>(operand->value) ? std::optional(rest) : std::nullopt;
 }
 
@@ -92,8 +90,7 @@ std::optional<std::uint32_t> bit_of_word(std::string_view text) {
 }
 
 bool is_integer(std::string_view text) {
-  std::string why;
-  const auto operand = stl::parse_operand(text, why);
+  const auto operand = stl::parse_operand(text);
   return operand && std::holds_alternative<stl::Integer>(operand->value);
 }
 
@@ -124,58 +121,48 @@ std::vector<std::uint8_t> MemoryRange::bytes_in(std::span<const std::uint8_t> im
   return {found.begin(), found.end()};
 }
 
-std::optional<MemoryRange> parse_range(std::string_view text, const AddressSpace& space, std::string& why) {
+Result<MemoryRange> parse_range(std::string_view text, const AddressSpace& space) {
   const std::string own = text.starts_with('"') ? std::string(text) : in_own_form(text);
   text = own;
   const std::size_t colon = text.find(':', text.starts_with('"') ? text.find('"', 1) : 0);
-  if (const auto address = beside_symbol(text, colon, space)) return parse_range(*address, space.model, why);
+  if (const auto address = beside_symbol(text, colon, space)) return parse_range(*address, space.model);
   const auto address = find_address(text.substr(0, colon), space);
   const auto area = address ? area_named(address->area) : std::nullopt;
-  if (!area || !names_width(*address, *area)) {
-    why = why_no_address(text.substr(0, colon), space);
-    return {};
-  }
+  if (!area || !names_width(*address, *area)) return Trouble{why_no_address(text.substr(0, colon), space)};
   MemoryRange range{*area, width_of(*address, *area).value_or(Width::Double), address->number, address->bit};
-  if (colon != std::string_view::npos && !read_suffix(stl::upper_case(text.substr(colon + 1)), range)) {
-    why = fmt::format("'{}': after the colon write a count of 1 or more (not for bits), or real (only for double words)",
-                      stl::shortened(text));
-    return {};
-  }
+  if (colon != std::string_view::npos && !read_suffix(stl::upper_case(text.substr(colon + 1)), range))
+    return trouble("'{}': after the colon write a count of 1 or more (not for bits), or real (only for double words)",
+                   stl::shortened(text));
   const std::uint64_t size = space.model.size_of(*area);
   const std::uint64_t needed = info(*area).element != 0 ? std::uint64_t{range.number} + range.count
                                                         : range.number + std::uint64_t{range.count} * bytes_of(range.width);
-  if (needed > size) {
-    why = fmt::format("'{}' does not exist on CPU {}: {} memory has {} {}", stl::shortened(text), space.model.name,
-                      info(*area).name, size, info(*area).element ? "elements" : "bytes");
-    return {};
-  }
-  if ((range.area == Area::AI || range.area == Area::AQ) && range.number % 2 != 0) {
-    why = fmt::format("{} is an odd address; analog values are at even ones: {}",
-                      address_text(range.area, range.width, range.number, 0),
-                      address_text(range.area, range.width, range.number - 1, 0));
-    return {};
-  }
+  if (needed > size)
+    return trouble("'{}' does not exist on CPU {}: {} memory has {} {}", stl::shortened(text), space.model.name,
+                   info(*area).name, size, info(*area).element ? "elements" : "bytes");
+  if ((range.area == Area::AI || range.area == Area::AQ) && range.number % 2 != 0)
+    return trouble("{} is an odd address; analog values are at even ones: {}",
+                   address_text(range.area, range.width, range.number, 0),
+                   address_text(range.area, range.width, range.number - 1, 0));
   range.at = place_of(range);
   return range;
 }
 
-std::optional<std::uint32_t> parse_pointer(std::string_view text, const AddressSpace& space, std::string& why) {
-  const auto target = parse_range(text.substr(1), space, why);
-  if (!target) return {};
+Result<std::uint32_t> parse_pointer(std::string_view text, const AddressSpace& space) {
+  const auto target = parse_range(text.substr(1), space);
+  if (!target) return target.trouble();
   const auto pointer = target->count == 1 && !target->real
                            ? pointer_to(space.model, target->area, target->width, target->number)
                            : std::nullopt;
-  if (!pointer) why = fmt::format("'{}': {}", stl::shortened(text), pointer_targets_text(space.model));
-  return pointer;
+  if (!pointer) return trouble("'{}': {}", stl::shortened(text), pointer_targets_text(space.model));
+  return *pointer;
 }
 
 std::optional<Assignment> parse_value(const MemoryRange& place, std::string_view text) {
-  std::string why;
   text = stl::trim(text);
   if (place.width == Width::Bit && place.count == 1)
     if (const auto bit = bit_of_word(text)) return Assignment{place, *bit};
   const std::string here = stl::constant_here(text);  // `0x10`, `10h`
-  const auto value = stl::parse_operand(here.empty() ? text : std::string_view(here), why);
+  const auto value = stl::parse_operand(here.empty() ? text : std::string_view(here));
   if (!value || place.count != 1) return {};
   if (const auto* real = std::get_if<stl::Real>(&value->value); real && place.width == Width::Double) {
     Assignment assignment{place, std::bit_cast<std::uint32_t>(real->value)};
@@ -198,23 +185,22 @@ std::string values_text(const MemoryRange& place) {
   return fmt::format("{}, and {} counts {}", text, place.name_of(0), format_duration(timer_base(place.number).base));
 }
 
-std::optional<Assignment> parse_assignment(std::string_view text, const AddressSpace& space, std::string& why) {
+Result<Assignment> parse_assignment(std::string_view text, const AddressSpace& space) {
   const std::size_t equals = text.find('=', text.starts_with('"') ? text.find('"', 1) : 0);
-  const auto place = parse_range(text.substr(0, equals), space, why);
-  if (!place) return {};
+  const auto place = parse_range(text.substr(0, equals), space);
+  if (!place) return place.trouble();
   const std::string_view value = equals == std::string_view::npos ? "" : stl::trim(text.substr(equals + 1));
   if (value.starts_with('&') && place->count == 1 && place->width == Width::Double && !place->real) {
-    const auto pointer = parse_pointer(value, space, why);
-    return pointer ? std::optional(Assignment{*place, *pointer}) : std::nullopt;
+    const auto pointer = parse_pointer(value, space);
+    if (!pointer) return pointer.trouble();
+    return Assignment{*place, *pointer};
   }
   const auto assignment = equals == std::string_view::npos ? std::nullopt : parse_value(*place, value);
-  if (!assignment && is_integer(value) && place->count == 1 && !place->real) {
-    why = fmt::format("'{}': write a value that fits it: {}", stl::shortened(text), values_text(*place));
-  } else if (!assignment) {
-    why = fmt::format("'{}': write one address, =, and a value that fits it, for example VW100=5 or M31.7=1",
-                      stl::shortened(text));
-  }
-  return assignment;
+  if (assignment) return *assignment;
+  if (is_integer(value) && place->count == 1 && !place->real)
+    return trouble("'{}': write a value that fits it: {}", stl::shortened(text), values_text(*place));
+  return trouble("'{}': write one address, =, and a value that fits it, for example VW100=5 or M31.7=1",
+                 stl::shortened(text));
 }
 
 }  // namespace s7200

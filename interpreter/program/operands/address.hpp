@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/program/program.hpp"
 
@@ -40,11 +41,11 @@ struct AddressSpace {
 };
 
 /// `VB0:16`, `M31.7`, `AC0`, `T5`, `VD20:real`, `VD20:4:real`; `Speed`, `"Pump 1"` for a symbol's address. Bits have no
-/// count. Returns nothing and sets `why` if the text is not an address of this CPU.
-std::optional<MemoryRange> parse_range(std::string_view text, const AddressSpace& space, std::string& why);
+/// count. Trouble if the text is not an address of this CPU.
+Result<MemoryRange> parse_range(std::string_view text, const AddressSpace& space);
 
-/// `&VB100`: what a pointer to that address holds. Returns nothing and sets `why` if the text is none.
-std::optional<std::uint32_t> parse_pointer(std::string_view text, const AddressSpace& space, std::string& why);
+/// `&VB100`: what a pointer to that address holds. Trouble if the text is none.
+Result<std::uint32_t> parse_pointer(std::string_view text, const AddressSpace& space);
 
 struct Assignment {
   MemoryRange place;  ///< real if the value was written as one
@@ -52,7 +53,7 @@ struct Assignment {
 };
 
 /// `VW100=5`, `VB0=16#FF`, `I0.3=1`, `VD4=1.5`, `VD4:real=2`, `VD4=&VB100`.
-std::optional<Assignment> parse_assignment(std::string_view text, const AddressSpace& space, std::string& why);
+Result<Assignment> parse_assignment(std::string_view text, const AddressSpace& space);
 
 /// The value alone, for a place that is known.
 std::optional<Assignment> parse_value(const MemoryRange& place, std::string_view value);

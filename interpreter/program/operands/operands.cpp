@@ -422,9 +422,8 @@ class Placing {
   /// A constant: its length byte and its characters.
   Result string(const std::string& written) {
     if (!rule_.constant) return constant_refused();
-    std::string why;
-    const auto characters = stl::parse_characters(written, why);
-    if (!characters) return error(why);
+    const auto characters = stl::parse_characters(written);
+    if (!characters) return error(characters.why());
     if (characters->size() > kLongestStringConstant)
       return error(fmt::format("{} has {} characters", text(), characters->size()),
                    fmt::format("a string constant has {} at most", kLongestStringConstant));

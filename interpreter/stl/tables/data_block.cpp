@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/text.hpp"
 
 namespace s7200::stl {
@@ -71,28 +72,22 @@ bool begins_with_value(std::string_view word) {
   return is_digit(first) || first == '\'' || ((first == '-' || first == '+') && word.size() > 1 && is_digit(word[1]));
 }
 
-std::optional<DataLine::Value> value_of(std::string_view word, const Position& at, std::string& why) {
+Result<DataLine::Value> value_of(std::string_view word, const Position& at) {
   if (is_quoted(word)) {
-    if (word.size() < 2 || word.back() != word.front()) {
-      why = "this text has no closing quote";
-      return std::nullopt;
-    }
-    auto bytes = parse_characters(word.substr(1, word.size() - 2), why);
-    if (!bytes) return std::nullopt;
+    if (word.size() < 2 || word.back() != word.front()) return Trouble{"this text has no closing quote"};
+    auto bytes = parse_characters(word.substr(1, word.size() - 2));
+    if (!bytes) return bytes.trouble();
     const bool with_length = word.front() == '"';
-    if (with_length && bytes->size() > 254) {
-      why = fmt::format("a string has at most 254 characters, this one has {}", bytes->size());
-      return std::nullopt;
-    }
+    if (with_length && bytes->size() > 254)
+      return trouble("a string has at most 254 characters, this one has {}", bytes->size());
     if (with_length) bytes->insert(bytes->begin(), static_cast<char>(bytes->size()));
     return DataLine::Value{Text{std::move(*bytes)}, at};
   }
-  const auto operand = parse_operand(word, why);
-  if (!operand) return std::nullopt;
+  const auto operand = parse_operand(word);
+  if (!operand) return operand.trouble();
   if (const auto* integer = std::get_if<Integer>(&operand->value)) return DataLine::Value{*integer, at};
   if (const auto* real = std::get_if<Real>(&operand->value)) return DataLine::Value{*real, at};
-  why = fmt::format("{} is not a value", shortened(word));
-  return std::nullopt;
+  return trouble("{} is not a value", shortened(word));
 }
 
 }  // namespace
@@ -131,11 +126,12 @@ void read_data_line(std::string_view line, std::uint32_t number, ParseResult& re
     return;
   }
   data.position = words.position(word, number);
-  std::string why;
   const bool named = is_quoted(word) && word.find("\":") != std::string_view::npos;
   if (named || !(begins_with_value(word) || is_quoted(word))) {
-    data.address = parse_operand(word, why);
-    if (!data.address) return error(data.position, why, "a line begins with an address of V memory, VB0, or with a value");
+    auto address = parse_operand(word);
+    if (!address)
+      return error(data.position, address.why(), "a line begins with an address of V memory, VB0, or with a value");
+    data.address = *std::move(address);
     data.address->position = data.position;
     word = words.next();
     if (word.empty())
@@ -143,10 +139,10 @@ void read_data_line(std::string_view line, std::uint32_t number, ParseResult& re
   }
   for (; !word.empty(); word = words.next()) {
     const Position at = words.position(word, number);
-    if (auto value = value_of(word, at, why))
+    if (auto value = value_of(word, at))
       data.values.push_back(std::move(*value));
     else
-      error(at, why, kValues);
+      error(at, value.why(), kValues);
   }
   data.comment = words.comment();
   result.source.data.push_back(std::move(data));

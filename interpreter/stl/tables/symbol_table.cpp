@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/tables/symbols.hpp"
 #include "interpreter/stl/text/look_alikes.hpp"
@@ -36,23 +37,20 @@ std::string without_iec_mark_and_gap(std::string_view text) {
 }
 
 /// The address or constant in a cell, or the name of a block; nothing for other text.
-std::optional<OperandValue> value_of(std::string_view cell, std::string& why) {
+Result<OperandValue> value_of(std::string_view cell) {
   if (cell.size() > kLongestValue || cell.find_first_of("0123456789'") == std::string_view::npos) return std::nullopt;
   const std::string text = without_iec_mark_and_gap(cell);
   if (block_number(text)) return Name{upper_case(text)};
-  const auto operand = parse_operand(text, why);
-  if (!operand || std::holds_alternative<Name>(operand->value)) return std::nullopt;
+  const auto operand = parse_operand(text);
+  if (!operand) return operand.trouble();
+  if (std::holds_alternative<Name>(operand->value)) return std::nullopt;
   return operand->value;
 }
 
-bool has_value(std::string_view text) {
-  std::string why;
-  return value_of(text, why).has_value();
-}
+bool has_value(std::string_view text) { return value_of(text).has_value(); }
 
 bool is_address(std::string_view text) {
-  std::string why;
-  const auto value = value_of(text, why);
+  const auto value = value_of(text);
   if (!value || may_be_name(*value, without_iec_mark_and_gap(text))) return false;
   return std::holds_alternative<Address>(*value) || std::holds_alternative<Name>(*value);
 }
@@ -103,8 +101,8 @@ constexpr std::array<std::string_view, 7> kFormatHeadings{"FORMAT", "FORMATO",  
                                                           "格式",   "显示格式", "顯示格式"};
 
 constexpr std::array<std::string_view, 14> kCommentHeadings{
-    "COMMENT", "COMMENTS", "DESCRIPTION", "REMARK",  "REMARKS", "KOMMENTAR", "BESCHREIBUNG",
-    "COMMENTAIRE", "COMENTARIO", "COMMENTO", "注释", "註解", "注解", "说明"};
+    "COMMENT",     "COMMENTS",   "DESCRIPTION", "REMARK", "REMARKS", "KOMMENTAR", "BESCHREIBUNG",
+    "COMMENTAIRE", "COMENTARIO", "COMMENTO",    "注释",   "註解",    "注解",      "说明"};
 
 bool is_one_of(std::span<const std::string_view> headings, std::string_view text) {
   constexpr std::size_t kLongestHeading = 40;
@@ -385,28 +383,28 @@ class SymbolTableReader {
     if (std::max(columns.name, columns.address) >= cells.size()) return add_without_address(cells, line);
     const Cell &name = cells[columns.name], &address = cells[columns.address];
     if (address.text.empty()) return add_without_address(cells, line);
-    std::string why;
-    auto value = value_of(address.text, why);
-    if (!value && (value = as_meant(address, line))) {
-      result_.source.symbols.push_back({name.text, std::move(value), position(name, line), comment_of(cells, columns)});
+    auto value = value_of(address.text);
+    if (auto meant = value ? std::nullopt : as_meant(address, line)) {
+      result_.source.symbols.push_back({name.text, *std::move(meant), position(name, line), comment_of(cells, columns)});
       return;
     }
     if (!value)
-      return error(position(address, line), why.empty() ? fmt::format("{} is not an address", shortened(address.text)) : why,
+      return error(position(address, line),
+                   value.why().empty() ? fmt::format("{} is not an address", shortened(address.text)) : value.why(),
                    "a row of a symbol table is a name, an address or a constant, and perhaps a comment");
     if (name.text.empty())
       return error(position(address, line), fmt::format("{} has no name", shortened(address.text)),
                    "a row of a symbol table is a name, an address and perhaps a comment");
-    if (const auto other = value_of(name.text, why);
+    if (const auto other = value_of(name.text);
         other && !std::holds_alternative<Name>(*other) && !may_be_name(*other, name.text))
       return error(position(name, line), fmt::format("{} is an address or a constant, not a name", shortened(name.text)),
                    "give the symbol a name of its own: in the program, this would always be the address or the constant");
-    result_.source.symbols.push_back({name.text, std::move(value), position(name, line), comment_of(cells, columns)});
+    result_.source.symbols.push_back({name.text, *std::move(value), position(name, line), comment_of(cells, columns)});
   }
 
   /// What a cell was meant for, after an error about the slip: `Q0.O`, `I0,1`. The symbol is known then.
-  std::optional<OperandValue> as_meant(const Cell& cell, std::string_view line) {
-    std::string meant(cell.text), wrong, why;
+  Result<OperandValue> as_meant(const Cell& cell, std::string_view line) {
+    std::string meant(cell.text), wrong;
     if (const auto look_alike = look_alike_operand(cell.text)) {
       meant = look_alike->meant;
       wrong = look_alike->wrong;
@@ -414,8 +412,9 @@ class SymbolTableReader {
       std::ranges::replace(meant, ',', '.');
       wrong = "a comma before its bit";
     }
-    auto value = meant == cell.text ? std::nullopt : value_of(meant, why);
-    if (value) error(position(cell, line), fmt::format("{} has {}", shortened(cell.text), wrong), fmt::format("write {}", meant));
+    auto value = meant == cell.text ? std::nullopt : value_of(meant);
+    if (value)
+      error(position(cell, line), fmt::format("{} has {}", shortened(cell.text), wrong), fmt::format("write {}", meant));
     return value;
   }
 
@@ -485,7 +484,8 @@ bool is_symbol_table(std::string_view text, const std::function<bool(std::string
   if (headed) return rows >= statements;
   // Blanks alone are between the words of any text, and of a listing whose mnemonics are those of another controller;
   // `port: 502` is in settings of any kind.
-  if (separator == Separator::Blanks || is_assignment(separator)) return statements == 0 && rows > other && 2 * certain > rows;
+  if (separator == Separator::Blanks || is_assignment(separator))
+    return statements == 0 && rows > other && 2 * certain > rows;
   return rows > statements + other;
 }
 

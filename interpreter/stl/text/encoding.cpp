@@ -201,52 +201,44 @@ std::string_view guess_8_bit(std::string_view bytes) {
   return guess_windows(bytes);
 }
 
-std::optional<DecodedText> decoded(std::string text, std::string_view encoding, std::string& why) {
-  if (text.find('\0') != std::string::npos) {
-    why = "binary data, or UTF-32 text; save it as UTF-8";
-    return std::nullopt;
-  }
+Result<DecodedText> decoded(std::string text, std::string_view encoding) {
+  if (text.find('\0') != std::string::npos) return Trouble{"binary data, or UTF-32 text; save it as UTF-8"};
   return DecodedText{std::move(text), std::string(encoding)};
 }
 
 }  // namespace
 
-std::optional<DecodedText> decode(std::string_view bytes, std::string& why) {
-  if (auto text = from_marked_utf16(bytes)) return decoded(std::move(*text), kUtf16, why);
+Result<DecodedText> decode(std::string_view bytes) {
+  if (auto text = from_marked_utf16(bytes)) return decoded(std::move(*text), kUtf16);
   if (const auto order = order_of_unmarked_utf16(bytes))
-    if (std::string text = utf16_to_utf8(bytes, *order); not_text(text).empty())
-      return decoded(std::move(text), kUtf16, why);
-  why = not_text(bytes);
-  if (!why.empty()) return std::nullopt;
+    if (std::string text = utf16_to_utf8(bytes, *order); not_text(text).empty()) return decoded(std::move(text), kUtf16);
+  if (std::string why = not_text(bytes); !why.empty()) return Trouble{std::move(why)};
   if (bytes.ends_with('\x1A')) bytes.remove_suffix(1);  // the end mark of a DOS text
   const bool marked = bytes.starts_with("\xEF\xBB\xBF"sv);
   if (marked) bytes.remove_prefix(3);
   if (is_valid_utf8(bytes)) return DecodedText{std::string(bytes), std::string(kUtf8)};
   if (marked || is_nearly_utf8(bytes)) return DecodedText{repaired(bytes), std::string(kUtf8)};
   const std::string_view encoding = guess_8_bit(bytes);
-  return decoded(to_utf8(bytes, *find_code_page(encoding)), encoding, why);
+  return decoded(to_utf8(bytes, *find_code_page(encoding)), encoding);
 }
 
-std::optional<std::string> read_decoded(const FileSource& files, const std::string& path, std::string& why) {
-  const auto bytes = files.read(path, why);
-  auto text = bytes ? decode(*bytes, why) : std::nullopt;
-  return text ? std::optional(std::move(text->text)) : std::nullopt;
+Result<std::string> read_decoded(const FileSource& files, const std::string& path) {
+  const auto bytes = files.read(path);
+  if (!bytes) return bytes.trouble();
+  auto text = decode(*bytes);
+  if (!text) return text.trouble();
+  return std::move(text->text);
 }
 
-std::optional<std::string> encode(std::string_view utf8, std::string_view encoding, std::string& why) {
+Result<std::string> encode(std::string_view utf8, std::string_view encoding) {
   if (encoding == kUtf8) return std::string(utf8);
   const CodePage* const page = find_code_page(encoding);
-  if (page == nullptr && encoding != kUtf16) {
-    why = fmt::format("{} is not an encoding that can be written", encoding);
-    return std::nullopt;
-  }
+  if (page == nullptr && encoding != kUtf16) return trouble("{} is not an encoding that can be written", encoding);
   std::string bytes = page ? "" : "\xFF\xFE";
   for (const Character c : characters(utf8)) {
     const std::string written = page ? from_character(c.code, *page) : to_utf16(c.code);
-    if (written.empty()) {
-      why = fmt::format("the character U+{:04X} does not exist in {}", static_cast<std::uint32_t>(c.code), encoding);
-      return std::nullopt;
-    }
+    if (written.empty())
+      return trouble("the character U+{:04X} does not exist in {}", static_cast<std::uint32_t>(c.code), encoding);
     bytes += written;
   }
   return bytes;

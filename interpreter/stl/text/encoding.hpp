@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "interpreter/base/file_source.hpp"
+#include "interpreter/base/result.hpp"
 
 namespace s7200::stl {
 
@@ -15,15 +16,15 @@ struct DecodedText {
       encoding;  ///< what it was taken for: "UTF-8", "UTF-16", "Windows-1250" to "-1254", "CP437", "GBK", "Shift-JIS"
 };
 
-/// Guesses the encoding of a source file and converts it. Returns nothing for a file that is not text (NUL bytes, a picture,
-/// an archive) and says in `why` what it looks like.
-std::optional<DecodedText> decode(std::string_view bytes, std::string& why);
+/// Guesses the encoding of a source file and converts it. Trouble, with what it looks like, for a file that is not text
+/// (NUL bytes, a picture, an archive).
+Result<DecodedText> decode(std::string_view bytes);
 
 /// The text of a file, decoded; spreadsheets write tables in the code page of their Windows. Nothing as decode() and read().
-std::optional<std::string> read_decoded(const FileSource& files, const std::string& path, std::string& why);
+Result<std::string> read_decoded(const FileSource& files, const std::string& path);
 
-/// The text in one of the encodings that decode() names. Returns nothing and sets `why` if the text has a character that the
+/// The text in one of the encodings that decode() names. Trouble if the text has a character that the
 /// encoding lacks, or if there is no such encoding.
-std::optional<std::string> encode(std::string_view utf8, std::string_view encoding, std::string& why);
+Result<std::string> encode(std::string_view utf8, std::string_view encoding);
 
 }  // namespace s7200::stl

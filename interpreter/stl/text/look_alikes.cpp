@@ -54,8 +54,7 @@ std::optional<LookAlike> in_latin(std::string_view word) {
 
 /// Whether a word is an address or a constant. `all_letters`: it had no digit before, so that a short one may be a name.
 bool is_operand(const std::string& word, bool all_letters) {
-  std::string why;
-  const auto operand = parse_operand(word, why);
+  const auto operand = parse_operand(word);
   if (!operand || std::holds_alternative<Name>(operand->value)) return false;
   const auto* address = std::get_if<Address>(&operand->value);
   return !all_letters || (address && address->size != Size::None);

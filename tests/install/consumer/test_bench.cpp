@@ -68,8 +68,7 @@ bool serves_behind_a_pty(const std::shared_ptr<const Program>& program) {
   simulation.power_up();
   const auto bridge = tools::make_pty_bridge(link, {});
   tools::LiveRun live(simulation, options, bridge.get());
-  std::string why;
-  if (!live.start(why)) return std::fprintf(stderr, "%s\n", why.c_str()), false;
+  if (const auto done = live.start(); !done) return std::fprintf(stderr, "%s\n", done.why().c_str()), false;
   std::thread run([&] { live.run_until(kNever); });
   const bool served = serving.get_future().wait_for(std::chrono::minutes(1)) == std::future_status::ready;
   const bool answered = served && answers_at(link);
@@ -82,9 +81,8 @@ bool serves_behind_a_pty(const std::shared_ptr<const Program>& program) {
 }  // namespace
 
 int main() {
-  std::string why;
-  const auto bytes = tools::read_file(STL_PROGRAMS "/modbus_slave.stl", why);
-  if (!bytes) return std::fprintf(stderr, "%s\n", why.c_str()), 2;
+  const auto bytes = tools::read_file(STL_PROGRAMS "/modbus_slave.stl");
+  if (!bytes) return std::fprintf(stderr, "%s\n", bytes.why().c_str()), 2;
   const CheckResult checked = check_text(*bytes, "modbus_slave.stl", cpu214(), default_times(cpu214()));
   if (!checked.program) return 2;
   const bool passed = scenario_passes(checked.program), served = serves_behind_a_pty(checked.program);

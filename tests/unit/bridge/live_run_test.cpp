@@ -11,7 +11,7 @@ namespace {
 /// Has nothing on its other side.
 class Turns final : public Bridge {
  public:
-  bool start(LiveLine&, boost::asio::io_context&, std::string&) override { return true; }
+  Result<> start(LiveLine&, boost::asio::io_context&) override { return {}; }
   void stop() override {}
   SerialFormat receive_format() const override { return {}; }
   void received(std::span<const ReceivedCharacter>) override {}
@@ -28,8 +28,7 @@ int turns_of(std::string_view program) {
   simulation.power_up();
   Turns bridge;
   LiveRun live(simulation, {}, &bridge);
-  std::string why;
-  EXPECT_TRUE(live.start(why)) << why;
+  EXPECT_EQ(live.start().why(), "");
   live.run_until(kSecond / 2);
   return bridge.count;
 }
@@ -47,7 +46,7 @@ TEST(LiveRun, OfAProgramThatLooksAtTheClockWaitsUntilItChanges) { EXPECT_LT(turn
 /// Fails at once, and must not be asked any more from then on.
 class Failing final : public Bridge {
  public:
-  bool start(LiveLine&, boost::asio::io_context&, std::string&) override { return true; }
+  Result<> start(LiveLine&, boost::asio::io_context&) override { return {}; }
   void stop() override { ++stopped; }
   SerialFormat receive_format() const override { return asked(), SerialFormat{}; }
   void received(std::span<const ReceivedCharacter>) override { asked(); }
@@ -67,8 +66,7 @@ TEST(LiveRun, ABridgeThatFailsEndsTheRunAndTheNextOneGoesOnWithoutIt) {
   simulation.power_up();
   Failing bridge;
   LiveRun live(simulation, {}, &bridge);
-  std::string why;
-  ASSERT_TRUE(live.start(why)) << why;
+  ASSERT_EQ(live.start().why(), "");
   EXPECT_EQ(live.run_until(kSecond / 2), serial::Halt::Request);
   EXPECT_EQ(live.take_failure(), "it was hung up");
   EXPECT_EQ(live.take_failure(), "") << "said once";

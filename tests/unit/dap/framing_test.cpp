@@ -8,9 +8,9 @@ namespace {
 std::string why_not(std::string_view bytes) {
   FrameReader reader;
   reader.add(bytes);
-  std::string why;
-  while (reader.next(why)) continue;
-  return why;
+  auto content = reader.next();
+  while (content) content = reader.next();
+  return content.why();
 }
 
 TEST(Framing, MessagesAreTheSameHoweverTheStreamIsCut) {
@@ -18,13 +18,13 @@ TEST(Framing, MessagesAreTheSameHoweverTheStreamIsCut) {
   for (std::size_t size = 1; size <= stream.size(); ++size) {
     FrameReader reader;
     std::vector<std::string> all;
-    std::string why;
     for (std::size_t at = 0; at < stream.size(); at += size) {
       reader.add(std::string_view(stream).substr(at, size));
-      while (const auto content = reader.next(why)) all.push_back(*content);
+      auto content = reader.next();
+      for (; content; content = reader.next()) all.push_back(*content);
+      EXPECT_EQ(content.why(), "");
     }
     EXPECT_EQ(all, (std::vector<std::string>{"{\"seq\":1}", "{}", ""})) << size;
-    EXPECT_EQ(why, "");
     EXPECT_FALSE(reader.is_amid());
   }
 }
@@ -52,11 +52,11 @@ std::vector<std::string> read_all(std::string_view stream, std::size_t size) {
   for (std::size_t at = 0; at < stream.size(); at += size) {
     reader.add(stream.substr(at, size));
     for (;;) {
-      std::string why;
-      const auto content = reader.next(why);
-      if (!content && why.empty()) break;
-      if (content && !content->starts_with('{')) reader.reject(*content), why = *content;
-      all.push_back(why.empty() ? *content : "wrong");
+      const auto content = reader.next();
+      if (!content && content.why().empty()) break;
+      const bool good = content && content->starts_with('{');
+      if (content && !good) reader.reject(*content);
+      all.push_back(good ? *content : "wrong");
     }
   }
   return all;
@@ -78,12 +78,11 @@ TEST(Framing, TheNextHeaderIsFoundAfterWhatIsNotAMessageHoweverTheStreamIsCut) {
 
 TEST(Framing, APartOfAMessageIsKnownAsOne) {
   FrameReader reader;
-  std::string why;
   reader.add("Content-Length: 2\r\n");
-  EXPECT_FALSE(reader.next(why));
+  EXPECT_FALSE(reader.next());
   EXPECT_TRUE(reader.is_amid());
   reader.add("\r\n{");
-  EXPECT_FALSE(reader.next(why));
+  EXPECT_FALSE(reader.next());
   EXPECT_TRUE(reader.is_amid());
 }
 

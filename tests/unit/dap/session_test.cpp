@@ -778,8 +778,7 @@ TEST(DapSession, WhatIsNeitherRequestNorResponseIsComplainedOf) {
 }
 
 TEST(DapSession, ADataBreakpointTakesASymbolWithABlank) {
-  std::string why;
-  const auto read = [&why](std::string_view text, const char* name) { return *read_source(std::string(text), name, why); };
+  const auto read = [](std::string_view text, const char* name) { return *read_source(std::string(text), name); };
   Editor editor(check(join_files({read("LD SM0.0\nMOVW 5, \"Pump 1\"\nMEND\n", "p.awl"),
                                   read("Symbol\tAddress\nPump 1\tVW100\n", "t.txt")})
                           .parsed,

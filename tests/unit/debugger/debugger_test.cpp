@@ -448,8 +448,7 @@ TEST(Debugger, OnlyARunThatMayStopWithinAScanLooksAtEachOfThem) {
     stepper.run(goal, 3 * kSecond, true);
     return static_cast<double>(wanted) / static_cast<double>(instructions);
   };
-  std::string why;
-  const auto range = parse_range("VW100", *program_of(kNested), why);
+  const MemoryRange range = *parse_range("VW100", *program_of(kNested));
   EXPECT_LT(looked({.on = StopPoint::On::RuntimeError}, {}), 0.2) << "the last checkpoint's time, up to the limit";
   EXPECT_EQ(looked({.on = StopPoint::On::Place, .op = 9}, {}), 1);
   EXPECT_EQ(looked({.on = StopPoint::On::Change, .range = range}, {}), 1);
@@ -1601,11 +1600,10 @@ TEST(Debugger, EveryFaultInAHelpTextIsOneThatIsAccepted) {
 // --- the tip document ---
 
 TEST(Debugger, StepsThroughTheTipDocument) {
-  std::string why;
-  const auto bytes = read_file(test::source_path("../shared/seeds/tip41_modbus_rtu_slave.txt"), why);
-  if (!bytes) GTEST_SKIP() << "the tip document is not here: " << why;
-  auto text = read_source(*bytes, "tip", why);
-  ASSERT_TRUE(text.has_value()) << why;
+  const auto bytes = read_file(test::source_path("../shared/seeds/tip41_modbus_rtu_slave.txt"));
+  if (!bytes) GTEST_SKIP() << "the tip document is not here: " << bytes.why();
+  auto text = read_source(*bytes, "tip");
+  ASSERT_TRUE(text.has_value()) << text.why();
   AtPrompt session(check(std::move(text->parsed), cpu214(), default_times(cpu214())).program);
 
   EXPECT_TRUE(has(session("continue 2s; break INT 123; send 01 03 00 00 00 02 crc; continue"), "breakpoint 1"));

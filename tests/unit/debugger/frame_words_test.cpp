@@ -7,9 +7,8 @@ namespace s7200::tools::frame_words_test {
 namespace {
 
 std::string frame_of(const std::string& text) {
-  std::string why;
-  const auto frame = parse_frame(text, 1, why);
-  return frame ? serial::to_hex(*frame) : "no frame: " + why;
+  const auto frame = parse_frame(text, 1);
+  return frame ? serial::to_hex(*frame) : "no frame: " + frame.why();
 }
 
 TEST(FrameWords, HexAndTextAreTakenAsTheyAre) {

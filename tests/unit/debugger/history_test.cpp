@@ -44,10 +44,7 @@ SendFrame frame(const std::string& hex) {
   return {SerialFormat{9600, 8, Parity::Even, 1}, {.frame = serial::parse_hex_frame(hex).frame, .silence = {}}};
 }
 
-SetMemory assignment(const std::string& text) {
-  std::string why;
-  return {{*parse_assignment(text, cpu214(), why)}};
-}
+SetMemory assignment(const std::string& text) { return {{*parse_assignment(text, cpu214())}}; }
 
 /// What a user may do in a session on the slave, by the instruction in front of which it is done.
 const std::vector<std::pair<std::uint64_t, Action>>& deeds() {
@@ -245,9 +242,8 @@ TEST(History, AnAdoptedRecordingKnowsWhoWroteLast) {
   adopted.history->adopt(session.history->recording());
   session.history->go_to(session.history->newest());
   adopted.history->go_to(adopted.history->newest());
-  std::string why;
   for (const char* const name : {"VB100", "VW20", "MB31", "VB4095"}) {
-    const auto range = parse_range(name, cpu214(), why);
+    const auto range = parse_range(name, cpu214());
     const auto expected = find_last_write(*session.history, 0, *range, StopToken()).write;
     const auto found = find_last_write(*adopted.history, 0, *range, StopToken()).write;
     ASSERT_EQ(found.has_value(), expected.has_value()) << name;
@@ -282,9 +278,8 @@ TEST(History, PartsThatCannotHoldALastWriteAreNotPlayedForItAndItIsTheSame) {
   told = told_of_all = 0;
   for (const char* const address : {"SMB30", "SMB34", "VW20", "VB100", "VB3570", "VD3570", "VW3300", "VB3301", "VB3580",
                                     "VB3590", "M31.7", "MB0", "VB4090"}) {
-    std::string why;
-    const auto range = parse_range(address, *program, why);
-    ASSERT_TRUE(range) << why;
+    const auto range = parse_range(address, *program);
+    ASSERT_TRUE(range) << range.why();
     for (const Time at : {5 * kMillisecond, 800 * kMillisecond, kNever}) {
       session.history->go_to(at);
       replayed.history->go_to(at);
@@ -310,8 +305,7 @@ TEST(WrittenMemory, WhereAPointerACountOrAParameterLedIsKept) {
                      {.interval = 20 * kMillisecond});
     StopAt stop(session.simulation.cpu(), 4000);
     session.history->run(stop);
-    std::string why;
-    const auto range = parse_range(address, cpu224(), why);
+    const auto range = parse_range(address, cpu224());
     return session.history->may_have_written(0, *range)(2);
   };
   constexpr std::string_view kPointer = "LD SM0.0\nMOVD &VB100, VD0\nMOVB 7, *VD0\nMEND\n";
@@ -606,9 +600,8 @@ TEST(History, WhatCameOverTheHostPortIsForgottenFromItsBeginningWhenItTakesTooMu
             fmt::format("since {}, where the past begins", moment_text(usage.oldest.time)));
   EXPECT_TRUE(
       at_oldest_text(*session.history).starts_with("this is the oldest moment: before which what came over the bridge"));
-  std::string why;
-  EXPECT_EQ(parse_moment("start", *session.history, why), usage.oldest.time);
-  EXPECT_FALSE(parse_moment("1us", *session.history, why));
+  EXPECT_EQ(parse_moment("start", *session.history), usage.oldest.time);
+  std::string why = parse_moment("1us", *session.history).why();
   EXPECT_TRUE(why.starts_with("the oldest moment is ")) << why;
   session.history->go_to(usage.oldest);
   EXPECT_EQ(session.history->now(), usage.oldest);
@@ -660,9 +653,8 @@ TEST(History, TheLastWriteIsFoundAlsoOfAnEqualValueThroughAPointerAndInABlock) {
   Recorded session(program);
   session.run_to(36);
   const auto line_of = [&](const char* address) -> std::uint32_t {
-    std::string why;
     const Snapshot before = session.simulation.snapshot();
-    const auto search = find_last_write(*session.history, 0, *parse_range(address, cpu214(), why), StopToken());
+    const auto search = find_last_write(*session.history, 0, *parse_range(address, cpu214()), StopToken());
     EXPECT_TRUE(session.simulation.snapshot() == before);
     return search.write && search.write->by ? program->statement(search.write->by->op).position.line : 0;
   };
@@ -691,11 +683,10 @@ TEST(History, TheLastWriteMayBeAnActionOrTheSystem) {
   session.run_to(10);
   session.history->act(assignment("VW50=3"));
   session.run_to(20);
-  std::string why;
-  const auto by_action = find_last_write(*session.history, 0, *parse_range("VW50", cpu214(), why), StopToken());
+  const auto by_action = find_last_write(*session.history, 0, *parse_range("VW50", cpu214()), StopToken());
   ASSERT_TRUE(by_action.write.has_value());
   EXPECT_EQ(by_action.write->action, 0U);
-  const auto by_system = find_last_write(*session.history, 0, *parse_range("SM0.6", cpu214(), why), StopToken());
+  const auto by_system = find_last_write(*session.history, 0, *parse_range("SM0.6", cpu214()), StopToken());
   ASSERT_TRUE(by_system.write.has_value());
   EXPECT_FALSE(by_system.write->by.has_value() || by_system.write->action.has_value());
 }

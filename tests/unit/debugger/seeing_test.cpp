@@ -106,8 +106,7 @@ TEST(Seeing, PrintShowsSpecialMemoryInWords) {
 }
 
 TEST(Seeing, SymbolsAndTheirCommentsAreShownBesideAddresses) {
-  std::string why;
-  const auto read = [&why](std::string_view text, const char* name) { return *read_source(std::string(text), name, why); };
+  const auto read = [](std::string_view text, const char* name) { return *read_source(std::string(text), name); };
   const CheckResult checked = check(join_files({read("LD SM0.0\nMOVW 5, Speed // set it\nINCW VW100\nMEND\n", "p.awl"),
                                                 read("Symbol\tAddress\tComment\nSpeed\tVW100\tin rpm\n", "t.txt")})
                                         .parsed,

@@ -22,8 +22,7 @@ AtPrompt session_of_two_files() {
                                              "LD SM0.0\n"                    // 5
                                              "MOVB 1, VB0\n"                 // 6
                                              "END_SUBROUTINE_BLOCK\n")}) {   // 7
-    std::string why;
-    files.push_back(read_source(text, name, why).value());
+    files.push_back(read_source(text, name).value());
   }
   return AtPrompt(check(join_files(std::move(files)).parsed, cpu224(), default_times(cpu224())).program);
 }

@@ -17,10 +17,7 @@ namespace {
 
 using Snapshot = serial::System::Snapshot;
 
-SetMemory assignment(const std::string& text) {
-  std::string why;
-  return {{*parse_assignment(text, cpu214(), why)}};
-}
+SetMemory assignment(const std::string& text) { return {{*parse_assignment(text, cpu214())}}; }
 
 struct Deed {
   std::uint64_t at;  ///< instructions of all stations
@@ -236,8 +233,7 @@ TEST(SystemHistory, TheLastWriteIsOneOfTheStationItIsAskedOf) {
   session.run_to(20'000);
   session.history.act(assignment("VB100=7"), kSlave2);
   session.run_to(20'100);
-  std::string why;
-  const MemoryRange range = *parse_range("VB100", cpu214(), why);
+  const MemoryRange range = *parse_range("VB100", cpu214());
   const Snapshot here = session.system().snapshot();
   const auto of_slave = find_last_write(session.history, kSlave2, range, StopToken());
   const auto of_other = find_last_write(session.history, kSlave1, range, StopToken());

@@ -44,9 +44,9 @@ class PtyClients : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_TRUE(mkdtemp(folder_.data()));
-    std::string why;
-    pty_ = Pty::open(link(), k8E1, why);
-    ASSERT_TRUE(pty_) << why;
+    auto pty = Pty::open(link(), k8E1);
+    ASSERT_TRUE(pty) << pty.why();
+    pty_ = *std::move(pty);
   }
   void TearDown() override {
     pty_.reset();

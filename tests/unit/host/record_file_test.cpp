@@ -17,11 +17,10 @@ class RecordFiles : public testing::Test {
   ~RecordFiles() override { std::filesystem::remove_all(folder_); }
 
   std::ostream& open() {
-    std::string why;
-    EXPECT_TRUE(file_.claim(files_, "--trace", path(), {"a trace", "# "}, why)) << why;
-    std::ostream* const out = file_.open(why);
-    EXPECT_TRUE(out) << why;
-    EXPECT_TRUE(file_.put(why)) << why;
+    EXPECT_EQ(file_.claim(files_, "--trace", path(), {"a trace", "# "}).why(), "");
+    const auto out = file_.open();
+    EXPECT_TRUE(out) << out.why();
+    EXPECT_EQ(file_.put().why(), "");
     return *out;
   }
   std::string path() const { return (folder_ / "trace.txt").string(); }
@@ -48,8 +47,7 @@ TEST_F(RecordFiles, GrowByWholeLines) {
     EXPECT_TRUE(all.starts_with(now)) << i;
   }
   EXPECT_GT(content().size(), 200'000U) << "most of it is there before the end";
-  std::string why;
-  EXPECT_TRUE(file_.close(why)) << why;
+  EXPECT_EQ(file_.close().why(), "");
   EXPECT_EQ(content(), all);
 }
 
@@ -59,8 +57,7 @@ TEST_F(RecordFiles, EndWithAWholeLineWhereTheirLimitIs) {
   for (int i = 0; i < 20'000; ++i) out << "line " << i << '\n';
   ASSERT_TRUE(file_.size());
   EXPECT_TRUE(file_.size()->full);
-  std::string why;
-  EXPECT_FALSE(file_.close(why));
+  std::string why = file_.close().why();
   EXPECT_EQ(why, path() + " has reached 100 KB and ends there; --record-limit lets records grow further");
   EXPECT_LE(content().size(), 100'000U);
   EXPECT_GT(content().size(), 99'900U);
@@ -84,8 +81,7 @@ TEST_F(RecordFiles, WithoutLineEndsGrowAllTheSame) {
   std::ostream& out = open();
   out << std::string(200'000, 'x');
   EXPECT_GT(content().size(), 100'000U);
-  std::string why;
-  EXPECT_TRUE(file_.close(why)) << why;
+  EXPECT_EQ(file_.close().why(), "");
   EXPECT_EQ(content(), std::string(200'000, 'x'));
 }
 

@@ -28,10 +28,9 @@ class SerialDeviceTest : public testing::Test {
   ~SerialDeviceTest() override { close(near_); }
 
   std::optional<SerialDevice> open(const SerialFormat& format = k8E1) {
-    std::string why;
-    auto device = SerialDevice::open(path_, format, why);
-    EXPECT_TRUE(device) << why;
-    return device;
+    auto device = SerialDevice::open(path_, format);
+    EXPECT_TRUE(device) << device.why();
+    return std::move(device).if_any();
   }
   void write_near(const std::string& bytes) {
     ASSERT_EQ(::write(near_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
@@ -39,11 +38,11 @@ class SerialDeviceTest : public testing::Test {
   /// Waits until `count` characters have come.
   static std::vector<SerialDevice::Character> read(SerialDevice& device, std::size_t count) {
     std::vector<SerialDevice::Character> characters;
-    std::string why;
-    while (characters.size() < count) {
-      if (!device.wait_for_input(std::chrono::seconds(10)) || !device.read(characters, why)) break;
-    }
-    EXPECT_EQ(why, "");
+    while (characters.size() < count && device.wait_for_input(std::chrono::seconds(10)))
+      if (const auto done = device.read(characters); !done) {
+        ADD_FAILURE() << done.why();
+        break;
+      }
     return characters;
   }
 
@@ -62,9 +61,8 @@ TEST_F(SerialDeviceTest, EveryByteComesThroughBothWays) {
   for (std::size_t i = 0; i < all.size(); ++i)
     EXPECT_EQ(characters[i], (SerialDevice::Character{static_cast<std::uint8_t>(i), false}));
 
-  std::string why;
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(all.data());
-  EXPECT_EQ(device->write({bytes, all.size()}, why), all.size());
+  EXPECT_EQ(device->write({bytes, all.size()}), all.size());
   std::string heard;
   while (heard.size() < all.size()) {
     char part[256];
@@ -99,8 +97,7 @@ TEST_F(SerialDeviceTest, SettingsAreThoseOfTheFormatAtAnyRate) {
     EXPECT_EQ(settings.c_ospeed, baud);
     EXPECT_TRUE(settings.c_cflag & CSTOPB);
     EXPECT_TRUE(settings.c_cflag & PARODD);
-    std::string why;
-    EXPECT_TRUE(device->set(k8E1, why)) << why;
+    EXPECT_EQ(device->set(k8E1).why(), "");
     ASSERT_TRUE(read_settings(near_, settings));
     EXPECT_EQ(settings.c_ospeed, 9600U);
     EXPECT_FALSE(settings.c_cflag & (CSTOPB | PARODD));
@@ -121,9 +118,7 @@ TEST_F(SerialDeviceTest, APtyIsToldOfParityByItsCheckAlone) {
 TEST_F(SerialDeviceTest, WhatTheDeviceDoesNotTakeIsSaidAndTheOldFormatHolds) {
   auto device = open();
   ASSERT_TRUE(device);
-  std::string why;
-  EXPECT_FALSE(device->set({9600, 7, Parity::Even, 1}, why));
-  EXPECT_EQ(why, "the device does not do 7 data bits");
+  EXPECT_EQ(device->set({9600, 7, Parity::Even, 1}).why(), "the device does not do 7 data bits");
   EXPECT_EQ(device->format(), k8E1);
 }
 
@@ -139,8 +134,7 @@ TEST_F(SerialDeviceTest, TheSettingsFoundArePutBack) {
 
 TEST_F(SerialDeviceTest, OneProgramAtATime) {
   auto device = open();
-  std::string why;
-  EXPECT_FALSE(SerialDevice::open(path_, k8E1, why));
+  std::string why = SerialDevice::open(path_, k8E1).why();
   EXPECT_NE(why.find("another program"), std::string::npos) << why;
 }
 
@@ -150,18 +144,15 @@ TEST_F(SerialDeviceTest, ADeviceThatIsUnpluggedIsGone) {
   close(near_);
   near_ = -1;
   std::vector<SerialDevice::Character> characters;
-  std::string why;
-  EXPECT_FALSE(device->read(characters, why));
+  std::string why = device->read(characters).why();
   EXPECT_NE(why, "");
-  EXPECT_FALSE(device->write(std::vector<std::uint8_t>{1}, why));
+  EXPECT_FALSE(device->write(std::vector<std::uint8_t>{1}));
 }
 
 TEST_F(SerialDeviceTest, WhatIsNoSerialDeviceIsSaid) {
-  std::string why;
-  EXPECT_FALSE(SerialDevice::open("/dev/null", k8E1, why));
+  std::string why = SerialDevice::open("/dev/null", k8E1).why();
   EXPECT_EQ(why, "it is not a serial device");
-  EXPECT_FALSE(SerialDevice::open("/no/such/device", k8E1, why));
-  EXPECT_EQ(why, "No such file or directory");
+  EXPECT_EQ(SerialDevice::open("/no/such/device", k8E1).why(), "No such file or directory");
 }
 
 }  // namespace

@@ -40,18 +40,15 @@ class WrittenFilesTest : public testing::Test {
   }
   static std::string refusal(WrittenFiles& files, std::string_view option, const std::string& path,
                              const FileKind& kind = kNote, Replace replace = Replace::Own) {
-    std::string why;
-    const bool claimed = files.claim(option, path, kind, replace, why).has_value();
-    EXPECT_EQ(claimed, why.empty());
-    return why;
+    const auto claimed = files.claim(option, path, kind, replace);
+    EXPECT_EQ(claimed.has_value(), claimed.why().empty());
+    return claimed.why();
   }
   static Destination claimed(const std::string& path, const FileKind& kind = kNote, Replace replace = Replace::Own) {
     WrittenFiles files;
-    std::string why;
-    return files.claim("--note", path, kind, replace, why).value();
+    return files.claim("--note", path, kind, replace).value();
   }
 
-  std::string why_;
   std::string folder_ = (fs::temp_directory_path() / "s7200-files-XXXXXX").string();
 };
 
@@ -75,13 +72,13 @@ TEST_F(WrittenFilesTest, AnEmptyFileHoldsNothingAndIsReplacedUnlessItHasBeenFill
   for (const Replace replace : {Replace::Own, Replace::Never, Replace::Judged}) {
     put("empty", "");
     const Destination there = claimed(file("empty"), kNote, replace);
-    EXPECT_TRUE(write_result(there, "# a note\n", why_)) << why_;
+    EXPECT_EQ(write_result(there, "# a note\n").why(), "");
     EXPECT_EQ(content("empty"), "# a note\n");
   }
   put("empty", "");
   const Destination there = claimed(file("empty"));
   put("empty", "mine\n");
-  EXPECT_FALSE(write_result(there, "# a note\n", why_));
+  EXPECT_FALSE(write_result(there, "# a note\n"));
   EXPECT_EQ(content("empty"), "mine\n");
 }
 
@@ -138,10 +135,10 @@ TEST_F(WrittenFilesTest, NoOutputIsAFileThatTheCommandReadsOrALinkThatItMakes) {
 }
 
 TEST_F(WrittenFilesTest, AResultReplacesTheWholeFileKeepsItsRightsAndLeavesNothingBehind) {
-  ASSERT_TRUE(write_result(claimed(file("m")), "# a note\nfirst, and it is long\n", why_)) << why_;
+  ASSERT_EQ(write_result(claimed(file("m")), "# a note\nfirst, and it is long\n").why(), "");
   constexpr auto kOwner = fs::perms::owner_read | fs::perms::owner_write;
   fs::permissions(file("m"), kOwner);
-  ASSERT_TRUE(write_result(claimed(file("m")), "# a note\n2nd", why_)) << why_;
+  ASSERT_EQ(write_result(claimed(file("m")), "# a note\n2nd").why(), "");
   EXPECT_EQ(content("m"), "# a note\n2nd");
   EXPECT_EQ(fs::status(file("m")).permissions(), kOwner);
   EXPECT_EQ(count(), 1);
@@ -150,7 +147,7 @@ TEST_F(WrittenFilesTest, AResultReplacesTheWholeFileKeepsItsRightsAndLeavesNothi
 TEST_F(WrittenFilesTest, AnotherNameOfAFileThatIsReplacedKeepsWhatItHad) {
   put("m", "# a note\nfirst");
   fs::create_hard_link(file("m"), file("kept"));
-  ASSERT_TRUE(write_result(claimed(file("m")), "# a note\n2nd", why_)) << why_;
+  ASSERT_EQ(write_result(claimed(file("m")), "# a note\n2nd").why(), "");
   EXPECT_EQ(content("kept"), "# a note\nfirst");
 }
 
@@ -158,10 +155,9 @@ TEST_F(WrittenFilesTest, WhatHasComeMeanwhileIsLeftAloneUnlessItHasTheMark) {
   const auto written_after = [&](auto happens) {
     const Destination destination = claimed(file("m"));
     happens();
-    std::string why;
-    const bool written = write_result(destination, "# a note\nours", why);
-    EXPECT_EQ(why.empty(), written);
-    return written;
+    const auto written = write_result(destination, "# a note\nours");
+    EXPECT_EQ(written.why().empty(), bool(written));
+    return bool(written);
   };
   EXPECT_FALSE(written_after([&] { put("m", "theirs"); }));
   EXPECT_EQ(content("m"), "theirs");
@@ -177,7 +173,7 @@ TEST_F(WrittenFilesTest, WhatHasComeMeanwhileIsLeftAloneUnlessItHasTheMark) {
 
 TEST_F(WrittenFilesTest, WhatTheCallerHasReadIsReplacedWithoutAMark) {
   put("m", "{compact}");
-  ASSERT_TRUE(write_result(claimed(file("m"), kNote, Replace::Judged), "# a note\n", why_)) << why_;
+  ASSERT_EQ(write_result(claimed(file("m"), kNote, Replace::Judged), "# a note\n").why(), "");
   EXPECT_EQ(content("m"), "# a note\n");
 }
 
@@ -185,17 +181,17 @@ TEST_F(WrittenFilesTest, ARecordHasItsNameFromItsFirstLineOnAndGrowsUnderIt) {
   put("r", "# a list\nof before\n");
   WrittenFiles files;
   RecordFile record;
-  ASSERT_TRUE(record.claim(files, "--list", file("r"), kList, why_)) << why_;
-  std::ostream* out = record.open(why_);
+  ASSERT_EQ(record.claim(files, "--list", file("r"), kList).why(), "");
+  const auto out = record.open();
   ASSERT_TRUE(out);
   EXPECT_EQ(content("r"), "# a list\nof before\n");
   *out << kList.beginning;
-  ASSERT_TRUE(record.put(why_));
+  ASSERT_TRUE(record.put());
   EXPECT_EQ(content("r"), "# a list\n");
   *out << "one\n" << std::flush;
   EXPECT_EQ(content("r"), "# a list\none\n");
   *out << "two\n";
-  EXPECT_TRUE(record.close(why_));
+  EXPECT_TRUE(record.close());
   EXPECT_EQ(content("r"), "# a list\none\ntwo\n");
   EXPECT_EQ(count(), 1);
 }
@@ -204,8 +200,8 @@ TEST_F(WrittenFilesTest, ARecordThatIsNotBegunLeavesNothing) {
   {
     WrittenFiles files;
     RecordFile record;
-    ASSERT_TRUE(record.claim(files, "--list", file("r"), kList, why_)) << why_;
-    ASSERT_TRUE(record.open(why_));
+    ASSERT_EQ(record.claim(files, "--list", file("r"), kList).why(), "");
+    ASSERT_TRUE(record.open());
   }
   EXPECT_EQ(count(), 0);
 }

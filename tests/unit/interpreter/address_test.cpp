@@ -10,39 +10,30 @@
 namespace s7200::address_test {
 namespace {
 
-std::string refusal(std::string_view text) {
-  std::string why;
-  EXPECT_FALSE(parse_range(text, cpu214(), why)) << text;
-  return why;
-}
+std::string refusal(std::string_view text) { return parse_range(text, cpu214()).why(); }
 
-std::optional<Assignment> assignment(std::string_view text) {
-  std::string why;
-  return parse_assignment(text, cpu214(), why);
-}
+std::optional<Assignment> assignment(std::string_view text) { return parse_assignment(text, cpu214()).if_any(); }
 
 TEST(Address, ACountFollowsAColon) {
-  std::string why;
-  const auto range = parse_range("VW100:4", cpu214(), why);
-  ASSERT_TRUE(range) << why;
+  const auto range = parse_range("VW100:4", cpu214());
+  ASSERT_TRUE(range) << range.why();
   EXPECT_EQ(range->count, 4u);
   EXPECT_EQ(range->at, image::kV + 100);
   EXPECT_EQ(range->name_of(3), "VW106");
-  EXPECT_EQ(parse_range("T37:2", cpu214(), why)->name_of(1), "T38");
+  EXPECT_EQ(parse_range("T37:2", cpu214())->name_of(1), "T38");
 }
 
 TEST(Address, ADoubleWordIsARealIfTheTextSaysSo) {
-  std::string why;
   for (const char* text : {"VD20:real", "VD20:4:real", "VD20:real:4", "AC1:real", "vd20:REAL"}) {
-    const auto range = parse_range(text, cpu214(), why);
-    ASSERT_TRUE(range) << why;
+    const auto range = parse_range(text, cpu214());
+    ASSERT_TRUE(range) << range.why();
     EXPECT_TRUE(range->real) << text;
   }
-  EXPECT_EQ(parse_range("VD20:4:real", cpu214(), why)->count, 4u);
-  EXPECT_EQ(parse_range("VD20:real:4", cpu214(), why)->count, 4u);
+  EXPECT_EQ(parse_range("VD20:4:real", cpu214())->count, 4u);
+  EXPECT_EQ(parse_range("VD20:real:4", cpu214())->count, 4u);
   for (const char* text : {"VD20:real:0", "VD20:real:", "VD20:4:real:4", "VW20:real:4"})
-    EXPECT_FALSE(parse_range(text, cpu214(), why)) << text;
-  EXPECT_FALSE(parse_range("VD20", cpu214(), why)->real);
+    EXPECT_FALSE(parse_range(text, cpu214()));
+  EXPECT_FALSE(parse_range("VD20", cpu214())->real);
 }
 
 TEST(Address, TextThatIsNotAnAddressOfTheCpuIsRefused) {
@@ -75,21 +66,18 @@ TEST(Address, AValueThatDoesNotFitIsRefusedWithWhatThePlaceHolds) {
                           {"VW20=-32769", "'VW20=-32769': write a value that fits it: a word is -32768 to 65535"},
                           {"M0.1=2", "'M0.1=2': write a value that fits it: a bit is 0 to 1"}};
   for (const auto& [text, expected] : kCases) {
-    std::string why;
-    EXPECT_FALSE(parse_assignment(text, cpu214(), why)) << text;
-    EXPECT_EQ(why, expected);
+    EXPECT_EQ(parse_assignment(text, cpu214()).why(), expected);
   }
 }
 
 TEST(Address, AddressesAreReadAsOtherSystemsWriteThem) {
-  std::string why;
   for (const char* text : {"%VW10", "VW 10", "DB1.DBW10", "db1.dbw10"}) {
-    const auto range = parse_range(text, cpu214(), why);
-    ASSERT_TRUE(range) << text << ": " << why;
+    const auto range = parse_range(text, cpu214());
+    ASSERT_TRUE(range) << text << ": " << range.why();
     EXPECT_EQ(range->name_of(0), "VW10") << text;
   }
-  EXPECT_EQ(parse_range("DB1.DBX10.3", cpu214(), why)->name_of(0), "V10.3");
-  EXPECT_EQ(parse_range("%VW10:4", cpu214(), why)->count, 4U);
+  EXPECT_EQ(parse_range("DB1.DBX10.3", cpu214())->name_of(0), "V10.3");
+  EXPECT_EQ(parse_range("%VW10:4", cpu214())->count, 4U);
   EXPECT_EQ(refusal("DB2.DBW10"), "'DB2.DBW10' is not an address; write for example VB100, VW100:4, M31.7, AC0, VD20:real");
 }
 
@@ -105,26 +93,22 @@ TEST(Address, ValuesAreReadAsOtherLanguagesWriteThem) {
 }
 
 TEST(Address, AnalogValuesAreAtEvenAddresses) {
-  std::string why;
-  EXPECT_TRUE(parse_range("AIW2", cpu214(), why));
-  EXPECT_FALSE(parse_range("AIW3", cpu214(), why));
-  EXPECT_EQ(why, "AIW3 is an odd address; analog values are at even ones: AIW2");
-  EXPECT_FALSE(parse_assignment("AQW1=4", cpu214(), why));
-  EXPECT_EQ(why, "AQW1 is an odd address; analog values are at even ones: AQW0");
+  EXPECT_EQ(parse_range("AIW2", cpu214()).why(), "");
+  EXPECT_EQ(parse_range("AIW3", cpu214()).why(), "AIW3 is an odd address; analog values are at even ones: AIW2");
+  EXPECT_EQ(parse_assignment("AQW1=4", cpu214()).why(), "AQW1 is an odd address; analog values are at even ones: AQW0");
 }
 
 TEST(Address, AnAddressWithAnAmpersandIsAPointerToIt) {
-  std::string why;
-  EXPECT_EQ(parse_pointer("&VB100", cpu214(), why), 0x0800'0064U);
-  EXPECT_EQ(parse_pointer("&mw2", cpu214(), why), 0x0200'0002U);
-  EXPECT_EQ(parse_pointer("&C3", cpu214(), why), 0x0600'0006U) << "two bytes each";
-  EXPECT_EQ(parse_assignment("VD4=&VB100", cpu214(), why)->value, 0x0800'0064U);
+  EXPECT_EQ(parse_pointer("&VB100", cpu214()), 0x0800'0064U);
+  EXPECT_EQ(parse_pointer("&mw2", cpu214()), 0x0200'0002U);
+  EXPECT_EQ(parse_pointer("&C3", cpu214()), 0x0600'0006U) << "two bytes each";
+  EXPECT_EQ(parse_assignment("VD4=&VB100", cpu214())->value, 0x0800'0064U);
   for (const char* text : {"&V1.0", "&SMB2", "&AC1", "&VB0:2", "&VD0:real"}) {
-    EXPECT_FALSE(parse_pointer(text, cpu214(), why)) << text;
+    const std::string why = parse_pointer(text, cpu214()).why();
     EXPECT_NE(why.find("a pointer can point to bytes of I, Q, M, V or S"), std::string::npos) << text << ": " << why;
   }
   for (const char* text : {"VW4=&VB100", "VB4=&VB100", "VD4:real=&VB100", "VD4=&VB99999", "VD4=&", "VD4=VB100"})
-    EXPECT_FALSE(parse_assignment(text, cpu214(), why)) << text;
+    EXPECT_FALSE(parse_assignment(text, cpu214())) << text;
 }
 
 TEST(Address, ASymbolOfTheProgramStandsForItsAddress) {
@@ -134,17 +118,15 @@ TEST(Address, ASymbolOfTheProgramStandsForItsAddress) {
                            {"E1", stl::Address{"V", stl::Size::Word, 30, 0}, {}, {}},
                            {"Limit", stl::Integer{5}, {}, {}}};
   const auto program = check(parsed, cpu214(), default_times(cpu214())).program;
-  std::string why;
-  EXPECT_EQ(parse_range("Speed:2", *program, why)->name_of(1), "VW22");
-  EXPECT_EQ(parse_range("\"Pump 1\"", *program, why)->name_of(0), "Q0.3");
-  EXPECT_EQ(parse_assignment("\"Pump 1\"=1", *program, why)->value, 1U);
-  EXPECT_EQ(parse_assignment("speed=-1", *program, why)->place.name_of(0), "VW20");
-  EXPECT_EQ(parse_range("E1", *program, why)->name_of(0), "VW30");
-  EXPECT_EQ(parse_range("Speed:VW20", *program, why)->name_of(0), "VW20");
-  EXPECT_EQ(parse_assignment("Speed:VW20=3", *program, why)->value, 3U);
-  EXPECT_FALSE(parse_range("Limit", *program, why));
-  EXPECT_EQ(why, "'Limit' is the symbol of a constant, not of memory");
-  EXPECT_FALSE(parse_range("Speed", cpu214(), why));
+  EXPECT_EQ(parse_range("Speed:2", *program)->name_of(1), "VW22");
+  EXPECT_EQ(parse_range("\"Pump 1\"", *program)->name_of(0), "Q0.3");
+  EXPECT_EQ(parse_assignment("\"Pump 1\"=1", *program)->value, 1U);
+  EXPECT_EQ(parse_assignment("speed=-1", *program)->place.name_of(0), "VW20");
+  EXPECT_EQ(parse_range("E1", *program)->name_of(0), "VW30");
+  EXPECT_EQ(parse_range("Speed:VW20", *program)->name_of(0), "VW20");
+  EXPECT_EQ(parse_assignment("Speed:VW20=3", *program)->value, 3U);
+  EXPECT_EQ(parse_range("Limit", *program).why(), "'Limit' is the symbol of a constant, not of memory");
+  EXPECT_FALSE(parse_range("Speed", cpu214()));
 }
 
 }  // namespace

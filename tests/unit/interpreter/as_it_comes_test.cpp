@@ -12,9 +12,8 @@ namespace s7200::as_it_comes_test {
 namespace {
 
 SourceText read(const std::string& text) {
-  std::string why;
-  auto source = read_source(text, "page.txt", why);
-  EXPECT_TRUE(source) << why << "\n" << text;
+  auto source = read_source(text, "page.txt");
+  EXPECT_TRUE(source) << source.why() << "\n" << text;
   return source ? *source : SourceText{};
 }
 
@@ -24,11 +23,7 @@ std::string program(const std::string& text) {
   return stl::to_text(source.parsed.source);
 }
 
-std::string refusal(const std::string& text) {
-  std::string why;
-  EXPECT_FALSE(read_source(text, "page.txt", why)) << text;
-  return why;
-}
+std::string refusal(const std::string& text) { return read_source(text, "page.txt").why(); }
 
 const std::string kPlain = "// head\nNETWORK 1\nLD I0.0 // start\nA I0.1 // stop\n= Q0.0\n";
 

@@ -10,9 +10,8 @@ namespace s7200::convert_test {
 namespace {
 
 SourceText file(const std::string& text) {
-  std::string why;
-  auto read = read_source(text, "x", why);
-  EXPECT_TRUE(read) << why << "\n" << text;
+  auto read = read_source(text, "x");
+  EXPECT_TRUE(read) << read.why() << "\n" << text;
   return read ? *read : SourceText{};
 }
 
@@ -216,11 +215,10 @@ TEST(Convert, TextsOfStringInstructionsAreNoNames) {
 }
 
 TEST(Convert, KeepsNamesAmongBlocksAndTheirTable) {
-  std::string why;
   std::vector<SourceText> files;
-  files.push_back(*read_source("LD Button\nA \"Level low\"\n= Lamp\nMOVD &Table, VD20\nMEND\n", "p.stl", why));
+  files.push_back(*read_source("LD Button\nA \"Level low\"\n= Lamp\nMOVD &Table, VD20\nMEND\n", "p.stl"));
   files.push_back(*read_source(
-      "Symbol\tAddress\tComment\nButton\tI0.0\tgreen\nLamp\tQ0.1\t\nLevel low\tI0.2\t\nTable\tVB100\t\n", "s.txt", why));
+      "Symbol\tAddress\tComment\nButton\tI0.0\tgreen\nLamp\tQ0.1\t\nLevel low\tI0.2\t\nTable\tVB100\t\n", "s.txt"));
   SourceText project = join_files(std::move(files));
   const auto text = convert(project.parsed, Notation::MicroWin);
   ASSERT_TRUE(text);
@@ -234,11 +232,10 @@ TEST(Convert, KeepsNamesAmongBlocksAndTheirTable) {
 }
 
 TEST(Convert, MicroWinTableHasTheNamesWithTheirAddressesInTheText) {
-  std::string why;
   stl::ParseResult parsed = read_source(
                                 "LD Always_On:SM0.0\nA Start:I0.0\n= Lamp:Q0.0\nMOVD &Table:VB100, Next:VD20\n"
                                 "S Lamp:Q0.0, \"Two of them\":2\nMEND\n",
-                                "plant.stl", why)
+                                "plant.stl")
                                 ->parsed;
   ASSERT_TRUE(convert(parsed, Notation::MicroWin)) << parsed.diagnostics.front().message;
   EXPECT_EQ(symbol_table_text(parsed.source),

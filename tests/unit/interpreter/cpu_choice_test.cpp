@@ -10,9 +10,8 @@ namespace s7200::cpu_choice_test {
 namespace {
 
 stl::ParseResult read(const std::string& text) {
-  std::string why;
-  auto source = read_source(text, "program.awl", why);
-  EXPECT_TRUE(source) << why;
+  auto source = read_source(text, "program.awl");
+  EXPECT_TRUE(source) << source.why();
   return source ? source->parsed : stl::ParseResult{};
 }
 
@@ -76,11 +75,13 @@ TEST(CpuInHead, IsNotTakenFromBelowTheFirstInstruction) {
 }
 
 TEST(CpuInHead, IsNamedByTheTitleOfAnExport) {
-  const auto parsed = read("ORGANIZATION_BLOCK MAIN:OB1\nTITLE=Pump station, CPU 226\nBEGIN\nNetwork 1\nLD SM0.0\n= Q0.0\n"
-                           "END_ORGANIZATION_BLOCK\n");
+  const auto parsed = read(
+      "ORGANIZATION_BLOCK MAIN:OB1\nTITLE=Pump station, CPU 226\nBEGIN\nNetwork 1\nLD SM0.0\n= Q0.0\n"
+      "END_ORGANIZATION_BLOCK\n");
   EXPECT_EQ(cpu_in_head(parsed.source), nullptr) << "a sentence about something else";
-  const auto named = read("ORGANIZATION_BLOCK MAIN:OB1\nTITLE=Pump station for CPU 226\nBEGIN\nNetwork 1\nLD SM0.0\n= Q0.0\n"
-                          "END_ORGANIZATION_BLOCK\n");
+  const auto named = read(
+      "ORGANIZATION_BLOCK MAIN:OB1\nTITLE=Pump station for CPU 226\nBEGIN\nNetwork 1\nLD SM0.0\n= Q0.0\n"
+      "END_ORGANIZATION_BLOCK\n");
   ASSERT_NE(cpu_in_head(named.source), nullptr);
   EXPECT_EQ(cpu_in_head(named.source)->name, "226");
 }
@@ -102,9 +103,7 @@ TEST(FirstCpu, OfAProgramWithMistakesHasTheFewest) {
   EXPECT_EQ(first_for("LD SM0.0\nMOVB VW10, VB0\nMEND\n"), "214") << "the same mistake on all";
 }
 
-TEST(FirstCpu, OfAProgramForTheSmartIsThe226) {
-  EXPECT_EQ(first_for("NETWORK 1\nLD SM0.0\nGET VB300\n"), "226");
-}
+TEST(FirstCpu, OfAProgramForTheSmartIsThe226) { EXPECT_EQ(first_for("NETWORK 1\nLD SM0.0\nGET VB300\n"), "226"); }
 
 TEST(FirstCpu, NoEndIsMissingWhereNoLineCouldBeRead) {
   const auto parsed = read("NETWORK 1\nLD I0.0 A I0.1 = Q0.0\nNETWORK 2\nLD I0.0; O I0.2; = Q0.1\n");

@@ -127,24 +127,20 @@ TEST(CrossReference, ListsConstantsByValue) {
 
 std::string why_not(std::string_view word) {
   const auto program = program_of("NETWORK 1\nLD I0.0\nCALL 3\nMEND\nNETWORK 2\nSBR 3\nLD I0.1\n= Q0.0\nNETWORK 3\nRET\n");
-  std::string why;
   const std::vector<std::string> words{std::string(word)};
-  EXPECT_FALSE(parse_selection(words, facts_of(*program), why)) << word;
-  return why;
+  return parse_selection(words, facts_of(*program)).why();
 }
 
 TEST(Selection, NamesRoutinesAndNetworksInTheWaysPeopleWriteThem) {
   const auto program = program_of("NETWORK 1\nLD I0.0\nCALL 3\nMEND\nNETWORK 2\nSBR 3\nLD I0.1\n= Q0.0\nNETWORK 3\nRET\n");
   const Facts facts = facts_of(*program);
   for (const std::string word : {"SBR_3", "sbr 3", "SBR3"}) {
-    std::string why;
-    const auto selection = parse_selection(std::vector<std::string>{word}, facts, why);
-    ASSERT_TRUE(selection) << why;
+    const auto selection = parse_selection(std::vector<std::string>{word}, facts);
+    ASSERT_TRUE(selection) << selection.why();
     EXPECT_TRUE(selection->has_op(3) && selection->has_op(6) && !selection->has_op(2));
   }
-  std::string why;
-  const auto network = parse_selection(std::vector<std::string>{"SBR_3:3", "main"}, facts, why);
-  ASSERT_TRUE(network) << why;
+  const auto network = parse_selection(std::vector<std::string>{"SBR_3:3", "main"}, facts);
+  ASSERT_TRUE(network) << network.why();
   EXPECT_TRUE(network->has_op(6) && !network->has_op(4) && network->has_op(0));
 }
 

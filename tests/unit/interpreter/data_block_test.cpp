@@ -91,18 +91,15 @@ TEST(DataBlock, IsToldFromAListing) {
 }
 
 TEST(DataBlock, OneThatIsAllCommentsBelongsToTheProgramItIsGivenWith) {
-  std::string why;
-  std::vector<SourceText> files{*read_source("// data page\n//\n", "d", why),
-                                *read_source("LD SM0.0\n= Q0.0\nMEND\n", "p", why)};
+  std::vector<SourceText> files{*read_source("// data page\n//\n", "d"), *read_source("LD SM0.0\n= Q0.0\nMEND\n", "p")};
   EXPECT_FALSE(files[0].is_program());
   const CheckResult result = check(join_files(std::move(files)).parsed, cpu214(), default_times(cpu214()));
   EXPECT_TRUE(result.program) << render(result.diagnostics, result.source, false);
 }
 
 TEST(DataBlock, NamesOfSymbolsStandForItsAddresses) {
-  std::string why;
-  std::vector<SourceText> files{*read_source("LD SM0.0\n= Q0.0\nMEND\n", "p", why), *read_source("Limit\tVW10\n", "t", why),
-                                *read_source("VB0 1\nLimit 300\n", "d", why)};
+  std::vector<SourceText> files{*read_source("LD SM0.0\n= Q0.0\nMEND\n", "p"), *read_source("Limit\tVW10\n", "t"),
+                                *read_source("VB0 1\nLimit 300\n", "d")};
   const CheckResult result = check(join_files(std::move(files)).parsed, cpu214(), default_times(cpu214()));
   ASSERT_TRUE(result.program) << render(result.diagnostics, result.source, false);
   ASSERT_EQ(result.program->data.size(), 2U);

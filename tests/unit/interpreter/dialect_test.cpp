@@ -15,9 +15,9 @@ namespace {
 
 /// All messages about a text, each in a line.
 std::string messages(const std::string& text) {
-  std::string why, all;
-  const auto source = read_source(text, "program.awl", why);
-  if (!source) return why;
+  std::string all;
+  const auto source = read_source(text, "program.awl");
+  if (!source) return source.why();
   const CpuModel& model = *find_cpu("226");
   const CheckResult result = check(source->parsed, model, default_times(model));
   for (const stl::Diagnostic& d : result.diagnostics) all += std::to_string(d.position.line) + ": " + d.message + "\n";
@@ -105,8 +105,7 @@ TEST(Dialect, ProgramsOfTheS7200AreNone) {
 }
 
 TEST(Dialect, InstructionsOfTheSmartAreSaidOnce) {
-  std::string why;
-  const auto source = read_source("LD M2.1\nGET VB780\nPUT VB800\nGIP VB900\nSIP VB904\nMEND\n", "smart.awl", why);
+  const auto source = read_source("LD M2.1\nGET VB780\nPUT VB800\nGIP VB900\nSIP VB904\nMEND\n", "smart.awl");
   ASSERT_TRUE(source);
   const CpuModel& model = *find_cpu("226");
   const CheckResult result = check(source->parsed, model, default_times(model));

@@ -15,9 +15,8 @@ namespace {
 
 /// The causes of the errors of a text that is read, or why it cannot be read.
 std::set<std::string> causes_of(const std::string& text) {
-  std::string why;
-  const auto source = read_source(text, "rung.txt", why);
-  if (!source) return {why.substr(0, why.find(':'))};
+  const auto source = read_source(text, "rung.txt");
+  if (!source) return {source.why().substr(0, source.why().find(':'))};
   std::set<std::string> causes;
   for (const auto& d : check(source->parsed, *find_cpu("224"), default_times(*find_cpu("224"))).diagnostics)
     if (d.severity == stl::Severity::Error) causes.insert(d.message);
@@ -34,8 +33,9 @@ TEST(Drawings, ElementsOfLadderAreRecognised) {
 }
 
 TEST(Drawings, StatementsTablesAndRulesAreNone) {
-  for (const char* line : {"LD I0.0", "MOVB -5, VB0", "-I VW0, VW2", "// --| |--( )--", "LDB= VB0, 'a'", "|---|---|", "---------",
-                           "| LD | I0.0 |", "CALL Pump()", "X := (A - B) * C;", "| N | I0.0 | |", "[12] LD I0.0"})
+  for (const char* line :
+       {"LD I0.0", "MOVB -5, VB0", "-I VW0, VW2", "// --| |--( )--", "LDB= VB0, 'a'", "|---|---|", "---------",
+        "| LD | I0.0 |", "CALL Pump()", "X := (A - B) * C;", "| N | I0.0 | |", "[12] LD I0.0"})
     EXPECT_FALSE(stl::has_drawing(line)) << line;
 }
 
@@ -47,11 +47,15 @@ TEST(Drawings, AreLookedForInTimeThatFollowsTheLine) {
 
 TEST(Drawings, HaveOneMessageWhereverTheyStand) {
   EXPECT_EQ(causes_of("   I0.0    I0.1    Q0.0\n--] [-----]/[-----( )--\n"), kOneMessage);
-  EXPECT_EQ(causes_of("Netzwerk 1: Motor ein\n\n   E0.0     E0.1      A0.0\n----| |------|/|------( )----\n   A0.0 |\n----| |--\n"),
-            kOneMessage);
+  EXPECT_EQ(
+      causes_of(
+          "Netzwerk 1: Motor ein\n\n   E0.0     E0.1      A0.0\n----| |------|/|------( )----\n   A0.0 |\n----| |--\n"),
+      kOneMessage);
   EXPECT_EQ(causes_of("Network 1\n|   I0.0      I0.1      Q0.0  |\n|---| |-------|/|-------( )---|\n"), kOneMessage);
-  EXPECT_EQ(causes_of("NETWORK 1\nLD I0.0\n= Q0.0\nNETWORK 2\n--| |--|/|--( )--\n   I0.1 I0.2  Q0.1\nNETWORK 3\nLD I0.3\n= Q0.3\n"),
-            kOneMessage);
+  EXPECT_EQ(
+      causes_of(
+          "NETWORK 1\nLD I0.0\n= Q0.0\nNETWORK 2\n--| |--|/|--( )--\n   I0.1 I0.2  Q0.1\nNETWORK 3\nLD I0.3\n= Q0.3\n"),
+      kOneMessage);
   EXPECT_EQ(causes_of("LD I0.0\n= Q0.0\n  Start   Stop  Motor\n--| |--|/|--( )--\n"), kOneMessage) << "names above it";
   EXPECT_EQ(causes_of("LD I0.0\n-|P|-\n= Q0.0\n"), kOneMessage);
 }
@@ -61,9 +65,7 @@ TEST(Drawings, OtherMistakesBesideThemAreStillNamed) {
             (std::set<std::string>{std::string(stl::kIsDrawing), "IN of MOVB is a byte, VW0 is a word"}));
 }
 
-TEST(Drawings, InCommentsAreComments) {
-  EXPECT_TRUE(causes_of("// --| |--( )--\nLD I0.0\n= Q0.0 // -( )-\n").empty());
-}
+TEST(Drawings, InCommentsAreComments) { EXPECT_TRUE(causes_of("// --| |--( )--\nLD I0.0\n= Q0.0 // -( )-\n").empty()); }
 
 }  // namespace
 }  // namespace s7200::drawings_test

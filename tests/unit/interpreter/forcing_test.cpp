@@ -9,9 +9,8 @@ using test::ms;
 using test::Plc;
 
 MemoryRange place_of(std::string_view text, const CpuModel& model = cpu214()) {
-  std::string why;
-  const auto range = parse_range(text, model, why);
-  EXPECT_TRUE(range.has_value()) << why;
+  const auto range = parse_range(text, model);
+  EXPECT_TRUE(range.has_value()) << range.why();
   return range.value_or(MemoryRange{});
 }
 

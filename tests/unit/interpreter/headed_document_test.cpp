@@ -36,9 +36,8 @@ const std::string kListing =
     "INCW VW2\n";
 
 SourceText source_of(const std::string& text) {
-  std::string why;
-  auto source = read_source(text, "listing.txt", why);
-  EXPECT_TRUE(source) << why;
+  auto source = read_source(text, "listing.txt");
+  EXPECT_TRUE(source) << source.why();
   return *source;
 }
 
@@ -111,10 +110,8 @@ const std::string kKnown =
     "XMTcomplete中断程序\nNETWORK 1\nLD SM0.0\nMOVB 0, VB133\n";
 
 std::vector<std::string> repaired(stl::Source& source, const std::string& ids) {
-  std::string why;
   std::vector<std::string> unknown, texts;
-  for (const Slip& slip : repair(source, parse_repairs(ids, why), unknown)) texts.push_back(to_text(slip, source));
-  EXPECT_EQ(why, "");
+  for (const Slip& slip : repair(source, *parse_repairs(ids), unknown)) texts.push_back(to_text(slip, source));
   for (const std::string& id : unknown) texts.push_back("unknown " + id);
   return texts;
 }
@@ -174,8 +171,7 @@ TEST(Slips, OnlyAKnownListingHasThem) {
 
 TEST(Slips, AreAskedForByNumber) {
   for (const char* text : {"", "R", "1", "R1,", "R1;R2", "frob", "all,R1"}) {
-    std::string why;
-    parse_repairs(text, why);
+    const std::string why = parse_repairs(text).why();
     EXPECT_NE(why.find("write for example R1,R2 or all"), std::string::npos) << text;
   }
 }

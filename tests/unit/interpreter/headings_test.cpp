@@ -19,9 +19,8 @@ using stl::Block;
 using stl::RoutineName;
 
 SourceText read(const std::string& text) {
-  std::string why;
-  auto source = read_source(text, "listing.stl", why);
-  EXPECT_TRUE(source) << why;
+  auto source = read_source(text, "listing.stl");
+  EXPECT_TRUE(source) << source.why();
   return *source;
 }
 

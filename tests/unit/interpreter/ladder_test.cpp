@@ -15,9 +15,8 @@ namespace s7200::ladder_test {
 namespace {
 
 SourceText read(std::string_view page) {
-  std::string why;
-  auto text = read_drawings(page, "page.txt", why);
-  EXPECT_TRUE(text) << why;
+  auto text = read_drawings(page, "page.txt");
+  EXPECT_TRUE(text) << text.why();
   return text ? std::move(*text) : SourceText{};
 }
 
@@ -225,9 +224,8 @@ TEST(Ladder, MegabyteLinesAreReadOnce) {
 // ---- Comparison ----------------------------------------------------------------------------------------------------------
 
 LadderComparison compare(const std::string& page) {
-  std::string why;
-  auto result = compare_drawings(page, "page.txt", why);
-  EXPECT_TRUE(result) << why;
+  auto result = compare_drawings(page, "page.txt");
+  EXPECT_TRUE(result) << result.why();
   return result ? std::move(*result) : LadderComparison{};
 }
 
@@ -285,8 +283,7 @@ class DrawnTip : public testing::Test {
   void SetUp() override {
     const std::string path = test::source_path("../shared/seeds/tip41_modbus_rtu_slave.txt");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "there is no " << path;
-    std::string why;
-    bytes_ = tools::read_file(path, why).value_or("");
+    bytes_ = tools::read_file(path).value_or("");
   }
   std::string bytes_;
 };

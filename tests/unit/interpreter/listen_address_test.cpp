@@ -10,10 +10,9 @@ namespace {
 
 /// As it is understood, or what is wrong.
 std::string read(const std::string& text) {
-  std::string why;
-  const auto address = parse_listen_address(text, why);
-  EXPECT_EQ(address.has_value(), why.empty());
-  return address ? to_text(*address) : why;
+  const auto address = parse_listen_address(text);
+  EXPECT_EQ(address.has_value(), address.why().empty());
+  return address ? to_text(*address) : address.why();
 }
 
 TEST(ListenAddress, APortAloneIsForThisComputerOnly) {

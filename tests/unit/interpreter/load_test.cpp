@@ -8,10 +8,9 @@ namespace {
 
 /// Why a text is not a program; empty if it is read as one.
 std::string refusal(const std::string& text) {
-  std::string why;
-  const bool read = read_source(text, "file", why).has_value();
-  EXPECT_EQ(read, why.empty());
-  return why;
+  const auto read = read_source(text, "file");
+  EXPECT_EQ(read.has_value(), read.why().empty());
+  return read.why();
 }
 
 TEST(ReadSource, ProgramsWithMistakesAreStillPrograms) {

@@ -16,9 +16,8 @@ namespace s7200::plain_text_test {
 namespace {
 
 SourceText read(const std::string& text) {
-  std::string why;
-  auto source = read_source(text, "page.txt", why);
-  EXPECT_TRUE(source) << why << "\n" << text;
+  auto source = read_source(text, "page.txt");
+  EXPECT_TRUE(source) << source.why() << "\n" << text;
   return source ? *source : SourceText{};
 }
 
@@ -298,7 +297,6 @@ TEST(LookAlikes, AllOfThemHaveOneCause) {
 }
 
 TEST(LookAlikes, SymbolsMayLookAsTheyLike) {
-  std::string why;
   std::vector<SourceText> files{read("LD SM0.0\nMOVB 1, VB1O\nMOVB 2, Т1\n"), read("Symbol\tAddress\nVB1O\tVB5\nТ1\tVB6\n")};
   const CpuModel& model = *find_cpu("224");
   const CheckResult result = check(join_files(std::move(files)).parsed, model, default_times(model));
@@ -468,8 +466,7 @@ TEST(PlainText, APatchAndAMailSayWhatToDo) {
                   "apply it with patch"),
         {"Content-Transfer-Encoding: quoted-printable\n\nLD I0.0\n=3D Q0.0\n", "save its text"},
         {"LD I0.0\n=3D Q0.0\n", "save its text"}}) {
-    std::string why;
-    EXPECT_FALSE(read_source(text, "page.txt", why)) << text;
+    std::string why = read_source(text, "page.txt").why();
     EXPECT_NE(why.find(says), std::string::npos) << why;
   }
 }

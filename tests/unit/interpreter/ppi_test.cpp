@@ -139,11 +139,10 @@ TEST(Ppi, ASecondRequestIsRefusedWhereThatIsChosen) {
 }
 
 TEST(Ppi, WhatIsDoneWithASecondRequestIsOneOfTwoWords) {
-  std::string why;
-  EXPECT_EQ(parse_second_request("replaces", why), SecondRequest::Replaces);
-  EXPECT_EQ(parse_second_request("refused", why), SecondRequest::Refused);
-  EXPECT_EQ(parse_second_request("queued", why), std::nullopt);
-  EXPECT_EQ(why, "'queued' is not what a port does with a second request; write replaces or refused");
+  EXPECT_EQ(parse_second_request("replaces"), SecondRequest::Replaces);
+  EXPECT_EQ(parse_second_request("refused"), SecondRequest::Refused);
+  EXPECT_EQ(parse_second_request("queued").why(),
+            "'queued' is not what a port does with a second request; write replaces or refused");
 }
 
 TEST(Ppi, AMasterThatHasGivenUpIsNoLongerWaitedFor) {
@@ -255,8 +254,9 @@ TEST(Ppi, EachPortHasARateOfItsOwnAndComesBackToItFromFreeport) {
 TEST(PpiRates, AreThoseOfTheCpu) {
   std::string why;
   const auto rates = [&](std::string_view text, const CpuModel& model) {
-    why.clear();
-    return parse_ppi_rates(text, model, why).value_or(PpiRates{});
+    const auto read = parse_ppi_rates(text, model);
+    why = read.why();
+    return read.value_or(PpiRates{});
   };
   EXPECT_EQ(rates("19200", cpu214()), (PpiRates{19200, 19200}));
   EXPECT_EQ(rates("187500", cpu221()), (PpiRates{187500, 187500}));
@@ -358,8 +358,9 @@ TEST(Ppi, ItsStationIsThatOfTheSystemBlockUntilTheProgramSetsAnother) {
 TEST(PpiStations, AreFrom1To126) {
   std::string why;
   const auto stations = [&](std::string_view text, const CpuModel& model) {
-    why.clear();
-    return parse_ppi_stations(text, model, why).value_or(PpiStations{});
+    const auto read = parse_ppi_stations(text, model);
+    why = read.why();
+    return read.value_or(PpiStations{});
   };
   EXPECT_EQ(stations("1", cpu214()), (PpiStations{1, 1}));
   EXPECT_EQ(stations("3, 126", cpu226()), (PpiStations{3, 126}));

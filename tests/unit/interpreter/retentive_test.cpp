@@ -6,9 +6,8 @@ namespace s7200::test::retentive_test {
 namespace {
 
 std::string read_as(std::string_view text, const CpuModel& model = cpu224()) {
-  std::string why;
-  const auto ranges = parse_retentive(text, model, why);
-  return ranges ? to_text(*ranges) : why;
+  const auto ranges = parse_retentive(text, model);
+  return ranges ? to_text(*ranges) : ranges.why();
 }
 
 TEST(RetentiveRanges, AreUpToSixOfVMTAndC) {
@@ -27,9 +26,8 @@ TEST(RetentiveRanges, AreUpToSixOfVMTAndC) {
 /// A CPU after a power cycle, of which some memory was set before.
 struct Cycled {
   explicit Cycled(std::string_view retain, bool ram_lost = false) {
-    std::string why;
     const auto program =
-        with_system_block(*program_of("LD SM0.0\nMEND\n", cpu224()), {.retentive = parse_retentive(retain, cpu224(), why)});
+        with_system_block(*program_of("LD SM0.0\nMEND\n", cpu224()), {.retentive = *parse_retentive(retain, cpu224())});
     Plc before(program);
     for (const char* address : {"VB0", "VB100", "MB0", "MB13", "MB14", "T0", "C5"}) before.set(address, 0x5A);
     before.cpu.set_clock({26, 11, 21, 10, 0, 0, 7});

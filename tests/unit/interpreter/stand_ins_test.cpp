@@ -23,9 +23,8 @@ std::string exported(const std::string& text, const std::string& blocks = {}) {
 
 /// A program and its symbol table.
 CheckResult check_with(const std::string& text, const std::string& table, const CpuModel& model = cpu224()) {
-  std::string why;
-  std::vector<SourceText> files{*read_source(text, "main.awl", why)};
-  if (!table.empty()) files.push_back(*read_source(table, "symbols.txt", why));
+  std::vector<SourceText> files{*read_source(text, "main.awl")};
+  if (!table.empty()) files.push_back(*read_source(table, "symbols.txt"));
   return check(join_files(std::move(files)).parsed, model, default_times(model));
 }
 
@@ -66,7 +65,9 @@ TEST(StandIns, AreNoSymbolTableThatTheUserHasGiven) {
 }
 
 TEST(StandIns, ThatNothingSwitchesOnAreNamed) {
-  const auto note = [](const std::string& calls) { return to_text(stand_ins(listing("NETWORK 1\nLD SM0.0\n" + calls)).front()); };
+  const auto note = [](const std::string& calls) {
+    return to_text(stand_ins(listing("NETWORK 1\nLD SM0.0\n" + calls)).front());
+  };
   EXPECT_TRUE(note("CALL MBUS_SLAVE, M0.2, MB2\n").ends_with("; nothing calls its MBUS_INIT, which switches it on"));
   EXPECT_TRUE(note("CALL MBUS_MSG, SM0.5, 1, 0, 40001, 2, &VB100, M0.0, MB2\n")
                   .ends_with("; nothing calls its MBUS_CTRL, which switches it on"));
@@ -210,9 +211,8 @@ TEST(StandIns, UseTheSymbolsOfTheLibraryWhereTheProgramsTableHasThem) {
 }
 
 TEST(StandIns, AreNoFilesOfTheSameName) {
-  std::string why;
-  std::vector<SourceText> files{*read_source(exported("NETWORK 1\nLD SM0.0\n= M0.0\n"), "main.awl", why)};
-  files.push_back(*read_source("Pump\tQ0.0\n", "stand-in:modbus_slave.awl", why));
+  std::vector<SourceText> files{*read_source(exported("NETWORK 1\nLD SM0.0\n= M0.0\n"), "main.awl")};
+  files.push_back(*read_source("Pump\tQ0.0\n", "stand-in:modbus_slave.awl"));
   const CheckResult result = check(join_files(std::move(files)).parsed, cpu224(), default_times(cpu224()));
   ASSERT_TRUE(result.program);
   EXPECT_TRUE(stand_ins_of(result.program->source).empty());
@@ -248,8 +248,7 @@ TEST(StandIns, OtherRoutinesThatAreMissingAreNamedOnceEach) {
 }
 
 TEST(StandIns, FineForNamesTheCpusThatCanHaveThem) {
-  std::string why;
-  const auto fine = cpus_without_errors(read_source(exported(kSlave), "main.awl", why)->parsed);
+  const auto fine = cpus_without_errors(read_source(exported(kSlave), "main.awl")->parsed);
   EXPECT_EQ(fine.size(),
             static_cast<std::size_t>(std::ranges::count_if(
                 all_cpus(), [](const CpuModel* m) { return (m->self & kCpu22x) && m->size_of(Area::V) > 2048; })))

@@ -44,9 +44,8 @@ TEST(Warnings, AreListedInTheOrderOfTheirNamesAndEachNameOnce) {
 TEST(Warnings, ProgramsThatWorkWellHaveNone) {
   for (const auto& entry : std::filesystem::directory_iterator(test::source_path("stl_programs"))) {
     if (entry.path().extension() != ".stl") continue;
-    std::string why;
-    const auto bytes = tools::read_file(entry.path().string(), why);
-    ASSERT_TRUE(bytes) << why;
+    const auto bytes = tools::read_file(entry.path().string());
+    ASSERT_TRUE(bytes) << bytes.why();
     EXPECT_EQ(warnings_of(*bytes, *find_cpu(test::cpu_named_in(*bytes))), "") << entry.path();
   }
 }
@@ -54,11 +53,10 @@ TEST(Warnings, ProgramsThatWorkWellHaveNone) {
 TEST(Warnings, ApplicationTip41HasNone) {
   const std::string path = test::source_path("../shared/seeds/tip41_modbus_rtu_slave.txt");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  std::string why;
-  const auto bytes = tools::read_file(path, why);
-  ASSERT_TRUE(bytes) << why;
-  auto text = read_source(*bytes, path, why);
-  ASSERT_TRUE(text) << why;
+  const auto bytes = tools::read_file(path);
+  ASSERT_TRUE(bytes) << bytes.why();
+  auto text = read_source(*bytes, path);
+  ASSERT_TRUE(text) << text.why();
   EXPECT_EQ(shown(check(std::move(text->parsed), cpu214(), default_times(cpu214()))), "");
 }
 

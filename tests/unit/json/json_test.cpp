@@ -8,10 +8,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string why_not(const std::string& text, const JsonLimits& limits = {}) {
-  std::string why;
-  const auto json = parse_json(text, why, limits);
-  EXPECT_EQ(json.has_value(), why.empty());
-  return why;
+  const auto json = parse_json(text, limits);
+  EXPECT_EQ(json.has_value(), json.why().empty());
+  return json.why();
 }
 
 std::string nested(std::size_t levels, char open, char close) {

@@ -16,9 +16,8 @@ TEST(SeenTimes, AreWithinTheBoundsOfOurPrograms) {
   std::size_t compared = 0;
   for (const auto& entry : std::filesystem::directory_iterator(test::source_path("stl_programs"))) {
     if (entry.path().extension() != ".stl") continue;
-    std::string why;
-    const auto bytes = read_file(entry.path().string(), why);
-    ASSERT_TRUE(bytes) << why;
+    const auto bytes = read_file(entry.path().string());
+    ASSERT_TRUE(bytes) << bytes.why();
     const Inspection inspection = test::inspected(*bytes, {}, *find_cpu(test::cpu_named_in(*bytes)));
     const Bounds bounds =
         bounds_of(inspection.facts, calls_of(*inspection.program, inspection.facts.flow), *inspection.program);

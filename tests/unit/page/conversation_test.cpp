@@ -31,8 +31,7 @@ struct Pages {
 
   static Json read(const std::string& message) {
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    std::string why;
-    return parse_json(message, why).value_or(Json());
+    return parse_json(message).value_or(Json());
   }
 
   /// The reply to a command of window 1.

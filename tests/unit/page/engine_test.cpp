@@ -41,10 +41,7 @@ struct Page {
   Json operator()(const std::string& command) { return take({{"id", 2}, {"command", command}}); }
 
   std::vector<Json> said{};
-  Engine engine{[this](const std::string& message) {
-    std::string why;
-    said.push_back(parse_json(message, why).value_or(Json()));
-  }};
+  Engine engine{[this](const std::string& message) { said.push_back(parse_json(message).value_or(Json())); }};
 };
 
 const std::array<const CpuModel*, 1> kOne{&cpu214()};
@@ -87,13 +84,12 @@ struct Asked {
       simulation.finish_exchange();
       simulation.run_until(simulation.time() + 50 * kMillisecond);
     }
-    const SetMemory set{{{*parse_range("VW20", cpu214(), why), 7}}};
+    const SetMemory set{{{*parse_range("VW20", cpu214()), 7}}};
     journal.note(set);
     perform(set, simulation);
     simulation.run_until(simulation.time() + 50 * kMillisecond);
   }
 
-  std::string why;
   std::shared_ptr<const Program> program;
   serial::Simulation simulation;
   Journal journal;
@@ -115,7 +111,7 @@ TEST(Engine, ComesToTheSameStateAsTheRunThatWasRecorded) {
     addresses += fmt::format(" {}", each);
   const Json values = page("values" + addresses)["json"]["values"];
   for (const Json& value : values) {
-    const auto range = parse_range(value["name"].get<std::string>(), cpu214(), asked.why);
+    const auto range = parse_range(value["name"].get<std::string>(), cpu214());
     ASSERT_TRUE(range) << value;
     EXPECT_EQ(value["number"], number_at(asked.simulation.cpu().state(), *range, 0)) << value;
   }
@@ -133,9 +129,8 @@ TEST(Engine, RunsOnFromTheEndOfARecording) {
 TEST(RecordingJson, IsReadAsItWasWritten) {
   Asked asked;
   const Recording recording = asked.journal.recording();
-  std::string why;
-  const auto read = recording_from(json_of(recording, kOne), kOne, why);
-  ASSERT_TRUE(read) << why;
+  const auto read = recording_from(json_of(recording, kOne), kOne);
+  ASSERT_TRUE(read) << read.why();
   EXPECT_EQ(read->moments, recording.moments);
   EXPECT_EQ(read->stations, recording.stations);
   EXPECT_EQ(read->end, recording.end);
@@ -146,9 +141,8 @@ TEST(RecordingJson, IsReadAsItWasWritten) {
 
 TEST(Surroundings, AreReadAsTheyWereWritten) {
   const auto program = test::compile(kCounts);
-  std::string why;
   Surroundings around;
-  around.plc.set.push_back(*parse_assignment("VW10=5", *program, why));
+  around.plc.set.push_back(*parse_assignment("VW10=5", *program));
   around.plc.clock = ClockTime{.year = 26, .month = 11, .day = 21, .hour = 10, .minute = 0, .second = 0, .weekday = 7};
   around.plc.clock_error = 50;
   around.faults.push_back(serial::parse_fault("flip:exchange=2").fault);
@@ -158,8 +152,8 @@ TEST(Surroundings, AreReadAsTheyWereWritten) {
   around.kept->image[program->model->retentive.front().at()] = 7;
   around.kept->ram_lost = true;
   around.kept->power_off = 3;
-  const auto read = surroundings_of_options(options_of(*program, around), *program, why);
-  ASSERT_TRUE(read) << why;
+  const auto read = surroundings_of_options(options_of(*program, around), *program);
+  ASSERT_TRUE(read) << read.why();
   EXPECT_EQ(read->plc.set.size(), 1U);
   EXPECT_EQ(read->plc.clock, around.plc.clock);
   EXPECT_EQ(read->plc.clock_error, 50);
@@ -174,9 +168,8 @@ TEST(Surroundings, HaveTheTimesOfTheProgramOnlyIfTheyAreNotTheOnesOfItsCpu) {
   TimeTable times = default_times(cpu214());
   ASSERT_TRUE(times.add("mnemonic,form,base_us,per_unit_us,unit,marker\nINCW,,99,,,manual\n", "t").empty());
   const auto slower = check_text(kCounts, "p.stl", cpu214(), times).program;
-  std::string why;
-  const auto read = times_of_options(options_of(*slower, {}), cpu214(), why);
-  ASSERT_TRUE(read) << why;
+  const auto read = times_of_options(options_of(*slower, {}), cpu214());
+  ASSERT_TRUE(read) << read.why();
   EXPECT_EQ(to_csv(*read), to_csv(slower->times));
 }
 
@@ -197,9 +190,8 @@ TEST(Engine, OpensASystemWithAllThatItsFileNames) {
   Page page;
   EXPECT_EQ(page.take({{"id", 1}, {"open", {{"system", system_json(two_plcs())}}}})["json"]["opened"], true);
   page("continue 400ms");
-  std::string why;
-  const auto opened = system_from(system_json(two_plcs()), why);
-  ASSERT_TRUE(opened) << why;
+  const auto opened = system_from(system_json(two_plcs()));
+  ASSERT_TRUE(opened) << opened.why();
   Rig rig(opened->plan, {});
   rig.power_up();
   rig.system().run_until(400 * kMillisecond);
@@ -211,18 +203,14 @@ TEST(Engine, OpensASystemWithAllThatItsFileNames) {
 }
 
 TEST(Engine, ASystemIsRunAgainFromItsRecording) {
-  const auto opened = [] {
-    std::string why;
-    return system_from(system_json(two_plcs()), why).value();
-  }();
+  const auto opened = [] { return system_from(system_json(two_plcs())).value(); }();
   const std::vector models{opened.plan.plcs[0].program->model, opened.plan.plcs[1].program->model};
   Rig rig(opened.plan, {});
   rig.power_up();
   const SeenRig seen(rig, {});
   Journal journal(*seen.stations().front());
   rig.system().run_until(100 * kMillisecond);
-  std::string why;
-  const SetMemory set{{{*parse_range("VW10", *models[1], why), 7000}}};
+  const SetMemory set{{{*parse_range("VW10", *models[1]), 7000}}};
   journal.note(set, 1);
   perform(set, *seen.stations()[1]);
   rig.system().run_until(200 * kMillisecond);

@@ -103,8 +103,7 @@ TEST(PlanOfAProgram, IsOnePlcOnALineOfItsOwnWithoutNames) {
   EXPECT_TRUE(is_of_one_program(plan));
   ASSERT_EQ(plan.plcs.size(), 1U);
   EXPECT_EQ(spots_of_plcs(plan), (std::vector<Spot>{{0, 0, 1}}));
-  std::string why;
-  EXPECT_EQ(find_spot(plan, "", why), (Spot{0, 0, 1}));
+  EXPECT_EQ(find_spot(plan, ""), (Spot{0, 0, 1}));
 }
 
 }  // namespace

@@ -19,8 +19,7 @@ constexpr const char* kProgram =
 /// What a form makes of a run of 100 ms in which two characters arrive.
 std::string trace_of_run(const std::string& path, const std::string& signals) {
   const auto program = test::compile(kProgram);
-  std::string why;
-  const auto wanted = signals.empty() ? std::vector<Signal>{} : parse_signals(signals, *program, why).value();
+  const auto wanted = signals.empty() ? std::vector<Signal>{} : parse_signals(signals, *program).value();
   serial::Simulation simulation(program);
   const TraceFormat& format = trace_format_of(path);
   EXPECT_EQ(why_not_signals(format, wanted), "");
@@ -49,9 +48,8 @@ std::size_t count(const std::string& text, std::string_view what) {
 
 TEST(Signals, AreAddressesSymbolsAndInterruptRoutines) {
   const auto program = test::compile(kProgram);
-  std::string why;
-  const auto signals = parse_signals("Q0.0, VW20,VD100:real,INT 5,INT", *program, why);
-  ASSERT_TRUE(signals) << why;
+  const auto signals = parse_signals("Q0.0, VW20,VD100:real,INT 5,INT", *program);
+  ASSERT_TRUE(signals) << signals.why();
   EXPECT_EQ(signals->size(), 5U);
   EXPECT_EQ((*signals)[3].routine, 5);
   const std::vector<Signal> all = signals_of(*signals, *program);
@@ -61,22 +59,19 @@ TEST(Signals, AreAddressesSymbolsAndInterruptRoutines) {
 
 TEST(Signals, AreLevelsOfThePortsThatTheCpuHas) {
   const auto program = test::compile(kProgram);
-  std::string why;
-  const auto signals = parse_signals("PORT0.TXD,port0", *program, why);
-  ASSERT_TRUE(signals) << why;
+  const auto signals = parse_signals("PORT0.TXD,port0", *program);
+  ASSERT_TRUE(signals) << signals.why();
   std::string names;
   for (const Signal& one : signals_of(*signals, *program)) names += one.name + " ";
   EXPECT_EQ(names, "PORT0.TXD PORT0.RXD PORT0.TXD PORT0.LINE ");
-  EXPECT_FALSE(parse_signals("PORT1", *program, why));
-  EXPECT_EQ(why, "PORT1: the CPU 214 has no port 1");
-  EXPECT_FALSE(parse_signals("PORT0.CTS", *program, why));
-  EXPECT_EQ(why, "PORT0.CTS: the levels of a port are RXD, TXD and LINE");
+  EXPECT_EQ(parse_signals("PORT1", *program).why(), "PORT1: the CPU 214 has no port 1");
+  EXPECT_EQ(parse_signals("PORT0.CTS", *program).why(), "PORT0.CTS: the levels of a port are RXD, TXD and LINE");
 }
 
 TEST(VcdTrace, LevelsAreInTheirPlaceAmongWhatTheCpuHasDoneMeanwhile) {
   const auto program = test::compile(kProgram);
-  std::string why, text;
-  const auto wanted = parse_signals("INT5,PORT0.TXD", *program, why).value();
+  std::string text;
+  const auto wanted = parse_signals("INT5,PORT0.TXD", *program).value();
   const auto trace = trace_format_of("a.vcd").writer(
       {.take = [&text](Time, std::string_view line) { text += line; }, .program = program, .signals = wanted});
   text.clear();
@@ -93,12 +88,10 @@ TEST(VcdTrace, LevelsAreInTheirPlaceAmongWhatTheCpuHasDoneMeanwhile) {
 
 TEST(Signals, OfSeveralValuesOrNoneAreRefused) {
   const auto program = test::compile(kProgram);
-  std::string why;
-  EXPECT_FALSE(parse_signals("VB0:4", *program, why));
+  std::string why = parse_signals("VB0:4", *program).why();
   EXPECT_EQ(why, "VB0:4 is several values; name each");
-  EXPECT_FALSE(parse_signals("", *program, why));
-  EXPECT_EQ(why, "there is no signal; name some, for example Q0.0,VW20,INT");
-  EXPECT_FALSE(parse_signals("VW99999", *program, why));
+  EXPECT_EQ(parse_signals("", *program).why(), "there is no signal; name some, for example Q0.0,VW20,INT");
+  EXPECT_FALSE(parse_signals("VW99999", *program));
 }
 
 TEST(VcdTrace, HasAVariableForEachSignalAndEachChangeOnce) {

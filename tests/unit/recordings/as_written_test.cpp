@@ -16,17 +16,12 @@ const std::string kRequest = "01 03 00 0A 00 02 E4 09", kAnswer = "01 03 04 12 3
 constexpr Stamps kStamps{.character = 1'145'833};
 
 LineRecording recording_of(const std::string& bytes) {
-  std::string why;
-  auto recording = read_recording(bytes, {}, why);
-  EXPECT_TRUE(recording) << why << '\n' << bytes;
+  auto recording = read_recording(bytes, {});
+  EXPECT_TRUE(recording) << recording.why() << '\n' << bytes;
   return recording.value_or(LineRecording{});
 }
 
-std::string refusal_of(const std::string& bytes) {
-  std::string why;
-  EXPECT_FALSE(read_recording(bytes, {}, why)) << bytes;
-  return why;
-}
+std::string refusal_of(const std::string& bytes) { return read_recording(bytes, {}).why(); }
 
 std::vector<ReadFrame> read(const std::string& bytes) {
   return conversation(recording_of(bytes), *find_recorded_protocol("modbus"), kStamps);

@@ -46,9 +46,8 @@ struct Read {
 };
 
 Read read(const std::string& bytes) {
-  std::string why;
-  auto file = CaptureFile::open(bytes, why);
-  if (!file) return {.error = why};
+  auto file = CaptureFile::open(bytes);
+  if (!file) return {.error = file.why()};
   Read result;
   while (const auto packet = file->next()) result.packets.push_back(*packet);
   result.error = file->error();

@@ -21,16 +21,13 @@ const Bytes kRequest{0x01, 0x03, 0x00, 0x0A, 0x00, 0x02, 0xE4, 0x09};
 const Bytes kAnswer{0x01, 0x03, 0x04, 0x12, 0x34, 0x56, 0x78, 0x81, 0x07};
 
 LineRecording recording_of(const std::string& bytes, const ReadingChoices& choices = {}) {
-  std::string why;
-  auto recording = read_recording(bytes, choices, why);
-  EXPECT_TRUE(recording) << why;
+  auto recording = read_recording(bytes, choices);
+  EXPECT_TRUE(recording) << recording.why();
   return recording.value_or(LineRecording{});
 }
 
 std::string refusal_of(const std::string& bytes, const ReadingChoices& choices = {}) {
-  std::string why;
-  EXPECT_FALSE(read_recording(bytes, choices, why)) << bytes;
-  return why;
+  return read_recording(bytes, choices).why();
 }
 
 /// The request and its answer, with `latency` between their begins if the recording has times.
@@ -61,19 +58,16 @@ constexpr Time kLatency = 8 * 1'145'833 + 20 * ms;
 
 // --- notations ---
 
-const Notation* notation_of(std::initializer_list<std::string_view> cells, std::string* why = nullptr) {
+Result<const Notation&> notation_of(std::initializer_list<std::string_view> cells) {
   NotationFinder finder;
   std::size_t line = 1;
   for (const std::string_view cell : cells) finder.take(cell, ++line);
-  std::string said;
-  const Notation* const found = finder.found(said);
-  if (why != nullptr) *why = said;
-  return found;
+  return finder.found();
 }
 
 TEST(Notations, AColumnIsInTheNotationThatReadsAllOfItsCells) {
   const auto bytes_in = [](std::initializer_list<std::string_view> cells) {
-    const Notation* const notation = notation_of(cells);
+    const auto notation = notation_of(cells);
     Bytes bytes;
     for (const std::string_view cell : cells) {
       const Bytes some = notation ? *notation->read(cell) : Bytes{};
@@ -94,13 +88,9 @@ TEST(Notations, AColumnIsInTheNotationThatReadsAllOfItsCells) {
 }
 
 TEST(Notations, WhatIsNotUnderstoodIsNamedInTheNotationThatReadsMost) {
-  std::string why;
-  EXPECT_EQ(notation_of({"1", "3", "0"}, &why), nullptr);
-  EXPECT_EQ(why, "line 2: '1' may be a number or a character; write the column in hex");
-  EXPECT_EQ(notation_of({"0x01", "0x02", "frob"}, &why), nullptr);
-  EXPECT_EQ(why, "line 4: 'frob' is not bytes in hex");
-  EXPECT_EQ(notation_of({"1", "256"}, &why), nullptr);
-  EXPECT_EQ(why, "line 3: '256' is not bytes in decimal");
+  EXPECT_EQ(notation_of({"1", "3", "0"}).why(), "line 2: '1' may be a number or a character; write the column in hex");
+  EXPECT_EQ(notation_of({"0x01", "0x02", "frob"}).why(), "line 4: 'frob' is not bytes in hex");
+  EXPECT_EQ(notation_of({"1", "256"}).why(), "line 3: '256' is not bytes in decimal");
 }
 
 TEST(Notations, ALiteralHasTheEscapesOfC) {

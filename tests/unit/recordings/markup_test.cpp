@@ -10,9 +10,8 @@ namespace {
 
 /// The request and its answer after 40 ms, if `table` has times.
 void expect_the_conversation(const std::string& table, bool with_times = true) {
-  std::string why;
-  const auto recording = read_recording(table, {}, why);
-  ASSERT_TRUE(recording) << why << '\n' << table;
+  const auto recording = read_recording(table, {});
+  ASSERT_TRUE(recording) << recording.why() << '\n' << table;
   const auto frames = conversation(*recording, *find_recorded_protocol("modbus"));
   ASSERT_EQ(frames.size(), 2U) << table;
   EXPECT_EQ(frames[0].text, "station 1, read holding registers 40011, 2 of them") << table;
@@ -66,18 +65,16 @@ TEST(Markup, ColumnsAreWhereARuleOfDashesHasThem) {
 }
 
 TEST(Markup, LinesOfADrawnTableKeepTheirNumbers) {
-  std::string why;
-  const auto recording = read_recording("|time|dir|data|\n|--|--|--|\n|10:00:00|TX|01 03 00 0A 00 02 E4 09|\n", {}, why);
-  ASSERT_TRUE(recording) << why;
+  const auto recording = read_recording("|time|dir|data|\n|--|--|--|\n|10:00:00|TX|01 03 00 0A 00 02 E4 09|\n", {});
+  ASSERT_TRUE(recording) << recording.why();
   EXPECT_EQ(recording->frames.front().place, "line 3");
   EXPECT_TRUE(recording->notes.empty());
 }
 
 TEST(Markup, LinesThatAreNoRowsOfATableAreNamed) {
-  std::string why;
   const auto recording =
-      read_recording("My log:\n|time|dir|data|\n|--|--|--|\n|10:00:00|TX|01 03 00 0A 00 02 E4 09|\n\nWhy?\n", {}, why);
-  ASSERT_TRUE(recording) << why;
+      read_recording("My log:\n|time|dir|data|\n|--|--|--|\n|10:00:00|TX|01 03 00 0A 00 02 E4 09|\n\nWhy?\n", {});
+  ASSERT_TRUE(recording) << recording.why();
   EXPECT_EQ(recording->frames.front().place, "line 4");
   EXPECT_EQ(recording->notes,
             std::vector<std::string>{"line 1: left out, and 1 more: no row of the table, and no bytes in it"});

@@ -11,9 +11,8 @@ namespace {
 const RecordedProtocol& modbus() { return *find_recorded_protocol("modbus"); }
 
 LineRecording recording_of(const std::string& log) {
-  std::string why;
-  auto recording = read_recording(log, {}, why);
-  EXPECT_TRUE(recording) << why << '\n' << log;
+  auto recording = read_recording(log, {});
+  EXPECT_TRUE(recording) << recording.why() << '\n' << log;
   return recording.value_or(LineRecording{});
 }
 

@@ -27,17 +27,12 @@ namespace {
 constexpr Time ms = kMillisecond;
 
 LineRecording recording_of(const std::string& bytes, const ReadingChoices& choices = {}) {
-  std::string why;
-  auto recording = read_recording(bytes, choices, why);
-  EXPECT_TRUE(recording) << why;
+  auto recording = read_recording(bytes, choices);
+  EXPECT_TRUE(recording) << recording.why();
   return recording.value_or(LineRecording{});
 }
 
-std::string refusal_of(const std::string& bytes) {
-  std::string why;
-  EXPECT_FALSE(read_recording(bytes, {}, why));
-  return why;
-}
+std::string refusal_of(const std::string& bytes) { return read_recording(bytes, {}).why(); }
 
 const Bytes kRequest{0x01, 0x03, 0x00, 0x00, 0x00, 0x01, 0x84, 0x0A}, kAnswer{0x01, 0x03, 0x02, 0x12, 0x34, 0xB5, 0x33};
 
@@ -680,9 +675,8 @@ TEST(Recordings, EachRunOfMbpollInALogCountsItsReferencesByItself) {
 }
 
 TEST(Recordings, ReferencesOfMbpollCountFromZeroIfItIsToldSo) {
-  std::string why;
-  const auto read = read_recording(printed_by_mbpoll_of(3), {.mbpoll_from_zero = true}, why);
-  ASSERT_TRUE(read.has_value()) << why;
+  const auto read = read_recording(printed_by_mbpoll_of(3), {.mbpoll_from_zero = true});
+  ASSERT_TRUE(read.has_value()) << read.why();
   EXPECT_EQ(read->frames.at(0).bytes, modbus::rtu_frame(1, Bytes{3, 0, 3, 0, 1}));
   EXPECT_EQ(read->notes.at(0), "mbpoll printed values and no frames: these are the frames that reads of them have");
 }
@@ -818,9 +812,10 @@ TEST(Recordings, ATimeOfNoAgeIsRefused) {
   const auto read_at = [&](std::uint8_t high) {
     const Bytes packet{6, 0, 0, 0, 36, 0, 0, 0, 0, 0, 0, 0, high, 0, 0,  0, 0, 0,
                        0, 0, 4, 0, 0,  0, 4, 0, 0, 0, 1, 3, 0,    0, 36, 0, 0, 0};
-    std::string bytes, why;
+    std::string bytes;
     for (const Bytes* block : {&section, &in_seconds, &packet}) bytes.append(block->begin(), block->end());
-    return read_recording(bytes, {}, why) ? "read" : why;
+    const auto recording = read_recording(bytes, {});
+    return recording ? "read" : recording.why();
   };
   EXPECT_EQ(read_at(0), "read");
   EXPECT_EQ(read_at(1), "packet 1: 4294967296 s since 1970 is not a time of a recording");
@@ -900,16 +895,14 @@ TEST(Recordings, ModbusTcpIsFoundBelowTheHeadsOfManyLinks) {
 }
 
 TEST(Recordings, ACaptureWithoutTheChosenPortNamesTheOneThatItHas) {
-  std::string why;
-  EXPECT_FALSE(read_recording(capture_with_head(101, {}, 5020), {}, why));
+  std::string why = read_recording(capture_with_head(101, {}, 5020), {}).why();
   EXPECT_EQ(why, "no frames found; 2 packets not of TCP port 502 were left out; most have port 5020: --tcp-port 5020");
-  EXPECT_TRUE(read_recording(capture_with_head(101, {}, 5020), {.tcp_port = 5020}, why));
+  EXPECT_EQ(read_recording(capture_with_head(101, {}, 5020), {.tcp_port = 5020}).why(), "");
 }
 
 TEST(Recordings, TcpMayCarryModbusRtu) {
-  std::string why;
-  const auto recording = read_recording(capture_with_head(101, {}, 4001, kRequest, kAnswer), {.tcp_port = 4001}, why);
-  ASSERT_TRUE(recording) << why;
+  const auto recording = read_recording(capture_with_head(101, {}, 4001, kRequest, kAnswer), {.tcp_port = 4001});
+  ASSERT_TRUE(recording) << recording.why();
   ASSERT_EQ(recording->frames.size(), 2U);
   EXPECT_EQ(recording->frames[0].bytes, kRequest);
   EXPECT_EQ(recording->frames[0].direction, Direction::Request);
@@ -1027,8 +1020,8 @@ TEST(Recordings, RandomPacketsAreNeverReadBeyondTheirEnd) {
     packet.resize((next() >> 8) % 8 == 0 ? (next() >> 8) % packet.size() : packet.size());
     packets.push_back(std::move(packet));
   }
-  std::string why;
-  read_recording(ethernet_pcap(packets), {}, why);
+  const auto read = read_recording(ethernet_pcap(packets), {});
+  EXPECT_EQ(read.has_value(), read.why().empty());
 }
 
 // --- conversations ---

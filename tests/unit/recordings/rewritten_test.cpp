@@ -7,9 +7,8 @@ namespace s7200::tools::rewritten_test {
 namespace {
 
 LineRecording recording_of(const std::string& bytes) {
-  std::string why;
-  auto recording = read_recording(bytes, {}, why);
-  EXPECT_TRUE(recording) << why << '\n' << bytes;
+  auto recording = read_recording(bytes, {});
+  EXPECT_TRUE(recording) << recording.why() << '\n' << bytes;
   return recording.value_or(LineRecording{});
 }
 

@@ -14,17 +14,12 @@ namespace {
 const std::string kAsked = "station 1, read holding registers 40011, 2 of them", kSaid = "2 registers: 16#1234 16#5678";
 
 LineRecording recording_of(const std::string& bytes) {
-  std::string why;
-  auto recording = read_recording(bytes, {}, why);
-  EXPECT_TRUE(recording) << why << '\n' << bytes;
+  auto recording = read_recording(bytes, {});
+  EXPECT_TRUE(recording) << recording.why() << '\n' << bytes;
   return recording.value_or(LineRecording{});
 }
 
-std::string refusal_of(const std::string& bytes) {
-  std::string why;
-  EXPECT_FALSE(read_recording(bytes, {}, why)) << bytes;
-  return why;
-}
+std::string refusal_of(const std::string& bytes) { return read_recording(bytes, {}).why(); }
 
 std::vector<ReadFrame> read(const std::string& bytes, const Stamps& stamps = {.character = 1'145'833},
                             std::string_view protocol = "modbus") {

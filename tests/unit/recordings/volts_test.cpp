@@ -43,9 +43,8 @@ std::string table_of(const std::string& head, const RowOf& row) {
 }
 
 void expect_the_conversation(const std::string& table, const ReadingChoices& choices = {}) {
-  std::string why;
-  const auto recording = read_recording(table, choices, why);
-  ASSERT_TRUE(recording) << why << '\n' << table.substr(0, 300);
+  const auto recording = read_recording(table, choices);
+  ASSERT_TRUE(recording) << recording.why() << '\n' << table.substr(0, 300);
   EXPECT_EQ(recording->form, "volts");
   EXPECT_EQ(recording->line, SerialFormat{});
   const auto frames = conversation(*recording, *find_recorded_protocol("modbus"));
@@ -104,8 +103,7 @@ TEST(Volts, AColumnThatCountsRowsHasNoTimes) {
   const std::string table = table_of("Unit:(mV)\n,CH1,CH2\nFrequency,?,?\n", [](std::size_t i, double, bool level) {
     return fmt::format("{},{:.2f},0.00", i + 1, 1e3 * volts_of(level));
   });
-  std::string why;
-  EXPECT_FALSE(read_recording(table, {}, why));
+  std::string why = read_recording(table, {}).why();
   EXPECT_TRUE(why.starts_with("it has volts and no times")) << why;
   expect_the_conversation(table, {.samplerate = 50'000});
 }
@@ -113,9 +111,7 @@ TEST(Volts, AColumnThatCountsRowsHasNoTimes) {
 TEST(Volts, WithoutTimesTheUserNamesTheRateOfTheSamples) {
   const std::string table =
       table_of("CH1V\n", [](std::size_t, double, bool level) { return fmt::format("{:.2f}", volts_of(level)); });
-  std::string why;
-  EXPECT_FALSE(read_recording(table, {}, why));
-  EXPECT_EQ(why,
+  EXPECT_EQ(read_recording(table, {}).why(),
             "it has volts and no times: name the rate of its samples with --samplerate, as 1MHz, or export the times, too");
   expect_the_conversation(table, {.samplerate = 50'000});
 }
@@ -147,16 +143,14 @@ TEST(Volts, TooFewSamplesAreNamedWithWhatToExport) {
   const auto levels = samples();
   for (std::size_t i = 0; i < levels.size(); i += 20)
     table += fmt::format("{:.6f},{:.2f}\n", static_cast<double>(i) * 20e-6, volts_of(levels[i]));
-  std::string why;
-  EXPECT_FALSE(read_recording(table, {}, why));
+  std::string why = read_recording(table, {}).why();
   EXPECT_NE(why.find("its samples are 400 us apart: a line needs four or more in each bit"), std::string::npos) << why;
 }
 
 TEST(Volts, ATableOfOtherNumbersHasNone) {
   std::string table = "Time;Level;Flow\n";
   for (int i = 0; i < 20; ++i) table += fmt::format("{};{}.5;{}\n", i, i % 3, i % 7);
-  std::string why;
-  EXPECT_FALSE(read_recording(table, {}, why));
+  std::string why = read_recording(table, {}).why();
   EXPECT_TRUE(why.starts_with("no column found for the bytes")) << why;
 }
 

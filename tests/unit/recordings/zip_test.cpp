@@ -28,10 +28,12 @@ std::string archive() {
 
 /// A file of an archive, or what is said of it.
 std::string file_in(const std::string& bytes, std::string_view name) {
-  std::string text, why;
-  const auto zip = Zip::open(bytes, why);
+  std::string text;
+  const auto zip = Zip::open(bytes);
   const auto keep = [&](std::string_view piece) { return text += piece, true; };
-  return zip && zip->read(name, keep, why) ? text : why;
+  if (!zip) return zip.why();
+  const auto done = zip->read(name, keep);
+  return done ? text : done.why();
 }
 
 TEST(Zip, StoredAndDeflatedFilesAreRead) {
@@ -66,13 +68,11 @@ TEST(Zip, AnyCutAndAnyChangedByteEndsInAMessage) {
 
 TEST(Zip, ReadingEndsWhenNoMoreIsWanted) {
   const std::string bytes = archive();
-  std::string why;
   std::size_t pieces = 0;
-  EXPECT_FALSE(Zip::open(bytes, why)
-                   ->read(
-                       "b.txt", [&](std::string_view) { return ++pieces < 1; }, why));
+  const auto done = Zip::open(bytes)->read("b.txt", [&](std::string_view) { return ++pieces < 1; });
+  EXPECT_FALSE(done);
   EXPECT_EQ(pieces, 1U);
-  EXPECT_EQ(why, "");
+  EXPECT_EQ(done.why(), "");
 }
 
 }  // namespace

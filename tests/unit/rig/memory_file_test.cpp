@@ -151,9 +151,8 @@ TEST(MemoryFile, WhatIsWrittenReadsBackAsItself) {
   RetentiveMemory memory = filled();
   memory.eeprom[0] = 1;
   memory.eeprom[1023] = 2;
-  std::string why;
-  const auto read = memory_from_json(memory_to_json(memory, cpu214()), cpu214(), why);
-  ASSERT_TRUE(read) << why;
+  const auto read = memory_from_json(memory_to_json(memory, cpu214()), cpu214());
+  ASSERT_TRUE(read) << read.why();
   EXPECT_TRUE(*read == memory);
 }
 
@@ -208,8 +207,7 @@ TEST(MemoryFile, AFileThatIsNotMemoryOfThisCpuIsRefusedWithTheReason) {
       {with_forced(too_many), "there is room for 16 values"},
   };
   for (const auto& [json, reason] : kCases) {
-    std::string why;
-    EXPECT_FALSE(memory_from_json(json, cpu214(), why)) << reason;
+    std::string why = memory_from_json(json, cpu214()).why();
     EXPECT_NE(why.find(reason), std::string::npos) << why << " / " << reason;
   }
 }
@@ -218,9 +216,8 @@ TEST(MemoryFile, HasWhatIsForced) {
   Plc plc(kIdle);
   plc.cpu.force(plc.place("I0.3"), 1);
   plc.cpu.force(plc.place("VW10"), 7);
-  std::string why;
-  const auto memory = memory_from_json(memory_to_json(plc.cpu.retentive_memory(), cpu214()), cpu214(), why);
-  ASSERT_TRUE(memory) << why;
+  const auto memory = memory_from_json(memory_to_json(plc.cpu.retentive_memory(), cpu214()), cpu214());
+  ASSERT_TRUE(memory) << memory.why();
   EXPECT_EQ(memory->forcing, plc.cpu.state().forcing);
 }
 
@@ -228,12 +225,11 @@ TEST(MemoryFile, ANegativeForcedValueReadsBackAsItself) {
   Plc plc(kIdle);
   plc.cpu.force(plc.place("VB10"), static_cast<std::uint32_t>(-1));
   plc.cpu.force(plc.place("VW20"), static_cast<std::uint32_t>(-2));
-  std::string why;
   const std::string json = memory_to_json(plc.cpu.retentive_memory(), cpu214());
   EXPECT_NE(json.find("\"VB10\": 255"), std::string::npos) << json;
   EXPECT_NE(json.find("\"VW20\": 65534"), std::string::npos) << json;
-  const auto memory = memory_from_json(json, cpu214(), why);
-  ASSERT_TRUE(memory) << why;
+  const auto memory = memory_from_json(json, cpu214());
+  ASSERT_TRUE(memory) << memory.why();
   EXPECT_EQ(memory->forcing, plc.cpu.state().forcing);
 }
 
@@ -241,9 +237,8 @@ TEST(MemoryFile, ANegativeForcedValueReadsBackAsItself) {
 TEST(MemoryFile, AClockThatAProgramHasSetToNoDateReadsBackAsItself) {
   Plc plc("LD SM0.1\nMOVD 16#02991012, VD0\nMOVD 16#30000002, VD4\nTODW VB0\nMEND\n");
   plc.run_scans(1);
-  std::string why;
-  const auto memory = memory_from_json(memory_to_json(plc.cpu.retentive_memory(), cpu214()), cpu214(), why);
-  ASSERT_TRUE(memory) << why;
+  const auto memory = memory_from_json(memory_to_json(plc.cpu.retentive_memory(), cpu214()), cpu214());
+  ASSERT_TRUE(memory) << memory.why();
   EXPECT_EQ(memory->clock.month, 99);
   EXPECT_EQ(memory->clock, plc.cpu.clock());
 }

@@ -332,8 +332,8 @@ TEST(ScenarioReader, CalculatesInsideBraces) {
   Parameters parameters;
   parameters.values = {{"a", "5"}, {"deep.b", "16#10"}, {"t", "text"}};
   const auto result = [&](const std::string& text) {
-    std::string why;
-    return substitute(text, parameters, why).value_or("! " + why);
+    const auto made = substitute(text, parameters);
+    return made.value_or("! " + made.why());
   };
   EXPECT_EQ(result("no braces"), "no braces");
   EXPECT_EQ(result("<${t}> ${a}"), "<text> 5");

@@ -6,17 +6,12 @@ namespace s7200::modbus::modbus_address_test {
 namespace {
 
 std::optional<DataAddress> parsed(std::string_view text) {
-  std::string why;
-  const auto address = parse_address(text, why);
-  EXPECT_EQ(address.has_value(), why.empty()) << text;
-  return address;
+  const auto address = parse_address(text);
+  EXPECT_EQ(address.has_value(), address.why().empty()) << text;
+  return address.if_any();
 }
 
-std::string refused(std::string_view text) {
-  std::string why;
-  EXPECT_FALSE(parse_address(text, why)) << text;
-  return why;
-}
+std::string refused(std::string_view text) { return parse_address(text).why(); }
 
 TEST(ModbusAddress, EachAreaBeginsAt1AndEndsAt9999) {
   struct Limit {

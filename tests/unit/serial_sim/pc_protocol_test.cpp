@@ -90,14 +90,12 @@ TEST(PcCommand, TypesAreasAndCountsThatDoNotExistAreNotCommands) {
 }
 
 TEST(PcAddress, IsWrittenAsInStl) {
-  std::string why;
-  EXPECT_EQ(parse_address("VB100", why), (Address{Area::V, 100}));
-  EXPECT_EQ(parse_address("mb8", why), (Address{Area::M, 8}));
-  EXPECT_EQ(parse_address("IB0", why), (Address{Area::I, 0}));
-  EXPECT_EQ(parse_address("QB65535", why), (Address{Area::Q, 65535}));
+  EXPECT_EQ(parse_address("VB100"), (Address{Area::V, 100}));
+  EXPECT_EQ(parse_address("mb8"), (Address{Area::M, 8}));
+  EXPECT_EQ(parse_address("IB0"), (Address{Area::I, 0}));
+  EXPECT_EQ(parse_address("QB65535"), (Address{Area::Q, 65535}));
   for (const char* text : {"", "VB", "V100", "VW100", "VB65536", "VB-1", "SMB0", "VB1x", "VB 1", "100"}) {
-    why.clear();
-    EXPECT_FALSE(parse_address(text, why)) << text;
+    const std::string why = parse_address(text).why();
     EXPECT_NE(why.find("write for example VB100"), std::string::npos) << text;
   }
   EXPECT_EQ(notation({Area::V, 100}), "VB100");

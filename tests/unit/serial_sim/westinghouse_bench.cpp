@@ -100,8 +100,7 @@ Bench::Bench(std::string_view protocol, const std::string& settings)
 
 void Bench::set(const std::string& settings) {
   for (const std::string& text : words_of(settings)) {
-    std::string why;
-    EXPECT_TRUE(plc().set(text, why)) << why;
+    EXPECT_EQ(plc().set(text).why(), "");
   }
   station_.uart().configure(plc().format(), 0);
   master_.uart().configure(plc().format(), 0);
@@ -123,8 +122,7 @@ void Bench::lose_power() {
 std::string Bench::fault_of(const std::string& texts) const {
   std::string all;
   for (const std::string& text : words_of(texts)) {
-    std::string why;
-    if (!plc().holds(text, why)) all += why.empty() ? text : why;
+    if (const auto done = plc().holds(text); !done) all += done.why().empty() ? text : done.why();
   }
   return all;
 }

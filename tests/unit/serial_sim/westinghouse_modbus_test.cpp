@@ -365,12 +365,11 @@ TEST(WestinghouseModbus, ASnapshotGoesOnAsItWouldHave) {
 
 TEST(WestinghouseSetting, WhatIsNotASettingIsNamedWithThoseThereAre) {
   Bench bench("modbus");
-  std::string why;
-  EXPECT_FALSE(bench.plc().set("frob=1", why));
+  std::string why = bench.plc().set("frob=1").why();
   EXPECT_TRUE(why.starts_with("'frob=1' is not a setting of this PLC; there are slave, plc,")) << why;
   EXPECT_TRUE(why.ends_with("W[ADDRESS]")) << why;
   for (const char* const text : {"HR1=", "HR1", "HR1=zz", "HR1=12,", "W[12]="}) {
-    EXPECT_FALSE(bench.plc().set(text, why)) << text;
+    why = bench.plc().set(text).why();
     EXPECT_TRUE(why.starts_with(fmt::format("'{}': cells take hexadecimal values with commas between", text))) << why;
   }
   for (const auto& [text, said] :
@@ -381,29 +380,25 @@ TEST(WestinghouseSetting, WhatIsNotASettingIsNamedWithThoseThereAre) {
                                           {"HR0=1", "HR: numbers are from 1 to 65535"},
                                           {"CR1=2", "CR: 2 is more than 1"},
                                           {"W[FFFF]=1,2", "W: addresses are from 0 to FFFF"}}) {
-    why.clear();
-    EXPECT_FALSE(bench.plc().set(text, why));
-    EXPECT_EQ(why, said);
+    EXPECT_EQ(bench.plc().set(text).why(), said);
   }
 }
 
 TEST(WestinghouseSetting, CellsThatASmallerMemoryNoLongerHasAreNotReached) {
-  std::string why;
-  const auto plc = make_plc(*find_plc("modbus"), "pc1200", why);
+  const auto plc = make_plc(*find_plc("modbus"), "pc1200").value();
   for (const char* const text : {"HR100=1,2", "CR9=1", "holding_registers=100", "coils=9"})
-    ASSERT_TRUE(plc->set(text, why)) << why;
-  EXPECT_FALSE(plc->still_reaches("HR100=1,2", why));
-  EXPECT_EQ(why, "HR101 is not there: holding_registers=100; set holding_registers=101 or more before it");
-  EXPECT_TRUE(plc->still_reaches("HR99=1,2", why));
-  EXPECT_TRUE(plc->still_reaches("CR9=1", why));
-  EXPECT_TRUE(plc->still_reaches("coils=9", why)) << "a setting";
+    ASSERT_EQ(plc->set(text).why(), "");
+  EXPECT_EQ(plc->still_reaches("HR100=1,2").why(),
+            "HR101 is not there: holding_registers=100; set holding_registers=101 or more before it");
+  EXPECT_EQ(plc->still_reaches("HR99=1,2").why(), "");
+  EXPECT_EQ(plc->still_reaches("CR9=1").why(), "");
+  EXPECT_EQ(plc->still_reaches("coils=9").why(), "") << "a setting";
 }
 
 TEST(WestinghouseSetting, AModelThatDoesNotSpeakTheProtocolIsNamedWithThoseThatDo) {
-  std::string why;
-  EXPECT_EQ(make_plc(*find_plc("modbus"), "pc1100", why), nullptr);
-  EXPECT_EQ(why, "'pc1100' is not a PLC that speaks modbus here; there are pc503, pc1200, pc1250, pc2000, ncmz, hppc");
-  EXPECT_NE(make_plc(*find_plc("modbus"), "ncmz", why), nullptr);
+  EXPECT_EQ(make_plc(*find_plc("modbus"), "pc1100").why(),
+            "'pc1100' is not a PLC that speaks modbus here; there are pc503, pc1200, pc1250, pc2000, ncmz, hppc");
+  EXPECT_TRUE(make_plc(*find_plc("modbus"), "ncmz"));
 }
 
 }  // namespace

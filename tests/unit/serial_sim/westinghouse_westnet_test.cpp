@@ -137,8 +137,7 @@ TEST(Westnet, APlcThatIsNowhereIsMissingWhetherOrNotADropIsAddressed) {
 
 TEST(Westnet, TheComputerHasADrop) {
   Bench bench("westnet");
-  std::string why;
-  EXPECT_FALSE(bench.plc().set("local=", why));
+  std::string why = bench.plc().set("local=").why();
   EXPECT_EQ(why, "local: '' is not a drop; write highway, drop and subdrop in hex: 00.11.00");
   EXPECT_EQ(asked(bench, highway(ReadLocalAddress)), "09 06 00 01 00 10");
 }

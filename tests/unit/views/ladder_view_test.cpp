@@ -160,9 +160,8 @@ struct ReadBack {
 
 /// Draws each network, reads the drawing back and compares; then the same with the whole page.
 ReadBack read_back(const std::string& path) {
-  std::string why;
-  const auto text = read_source(read_file(path, why).value_or(""), path, why);
-  EXPECT_TRUE(text) << path << why;
+  const auto text = read_source(read_file(path).value_or(""), path);
+  EXPECT_TRUE(text) << path << text.why();
   ReadBack result;
   if (!text) return result;
   stl::ParseResult parsed = text->parsed;

@@ -17,8 +17,7 @@ std::shared_ptr<const Program> project() {
                                    std::pair("sub.awl",
                                              "// second\nSUBROUTINE_BLOCK Init:SBR0\nBEGIN\nNetwork 1\nLD SM0.0\n"
                                              "MOVB 1, VB0\nEND_SUBROUTINE_BLOCK\n")}) {
-    std::string why;
-    files.push_back(read_source(text, name, why).value());
+    files.push_back(read_source(text, name).value());
   }
   return check(join_files(std::move(files)).parsed, cpu214(), default_times(cpu214())).program;
 }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/counted.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/host/posix/pty.hpp"
@@ -23,15 +24,16 @@ class PtyBridge final : public Bridge {
  public:
   PtyBridge(const std::string& link, const serial::LineSettings& options) : link_(link), options_(options) {}
 
-  bool start(LiveLine& line, asio::io_context& context, std::string& why) override {
+  Result<> start(LiveLine& line, asio::io_context& context) override {
     line_ = &line;
     context_ = &context;
-    pty_ = Pty::open(link_, line.format(), why);
-    if (!pty_) return false;
+    auto pty = Pty::open(link_, line.format());
+    if (!pty) return pty.trouble();
+    pty_ = *std::move(pty);
     speaker_ = &pty_->latest();
     look();
     line.messages().serving(fmt::format("serving {}", link_));
-    return true;
+    return {};
   }
 
   void stop() override {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/base/result.hpp"
+
 namespace s7200::tools {
 namespace {
 
@@ -10,13 +12,12 @@ class NoPtyBridge final : public Bridge {
  public:
   explicit NoPtyBridge(const std::string& link) : link_(link) {}
 
-  bool start(LiveLine&, boost::asio::io_context&, std::string& why) override {
-    why = fmt::format(
+  Result<> start(LiveLine&, boost::asio::io_context&) override {
+    return trouble(
         "cannot serve {}: Windows has no ptys. Use --tcp, --rfc2217 or --modbus-tcp with a master that speaks TCP; or a "
         "pair "
         "of virtual COM ports, the master on one of them and --device on the other",
         link_);
-    return false;
   }
   void stop() override {}
   SerialFormat receive_format() const override { return {}; }

@@ -10,6 +10,7 @@
 
 #include "interpreter/base/file_path.hpp"
 #include "interpreter/base/file_source.hpp"
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/nearest.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/model/times/named_times.hpp"
@@ -45,11 +46,11 @@ class RigDebuggee final : public dap::Debuggee {
               stop_request) {}
 
   /// The past begins with the bridges attached.
-  bool start(std::string& why) {
-    if (!live_.start(why)) return false;
+  Result<> start() {
+    if (const auto done = live_.start(); !done) return done;
     history_.emplace(options_->rig.stations(*rig_), live_.history());
     if (live_.has_bridges()) say_(kMastersWait);
-    return true;
+    return {};
   }
 
   std::string source() const override {
@@ -236,8 +237,8 @@ std::shared_ptr<dap::Debuggee> make_debuggee(const CLI::App& app, std::shared_pt
   rig->simulation().stop_when({});  // the debugger looks itself, in front of each instruction
   auto debuggee = std::make_shared<RigDebuggee>(std::move(options), std::move(rig), std::move(*bridges), stop_request,
                                                 limits.may_use_files);
-  if (std::string why; !debuggee->start(why)) {
-    print_error(why);
+  if (const auto done = debuggee->start(); !done) {
+    print_error(done.why());
     return nullptr;
   }
   exit_code = kFine;

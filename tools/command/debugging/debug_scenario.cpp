@@ -45,9 +45,8 @@ int run_debug_scenario(const CLI::App& verb, const DebugOptions& options) {
     print_error(fmt::format("{} is about a program; a scenario says that itself, in its head", option));
     return kUnusable;
   }
-  std::string why;
-  const auto script = options.commands_file.empty() ? std::string() : read_file(options.commands_file, why);
-  if (!script) return print_error(fmt::format("cannot read {}: {}", options.commands_file, why)), kUnusable;
+  const auto script = options.commands_file.empty() ? std::string() : read_file(options.commands_file);
+  if (!script) return print_error(fmt::format("cannot read {}: {}", options.commands_file, script.why())), kUnusable;
   int exit_code = kFine;
   const auto one =
       OpenedScenario::open({.path = options.program.path, .only = options.only, .target = options.target}, exit_code);

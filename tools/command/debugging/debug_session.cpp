@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "interpreter/base/result.hpp"
 #include "tools/command/debugging/session_scenario.hpp"
 #include "tools/command/terminal/terminal.hpp"
 #include "tools/host/interruption.hpp"
@@ -17,29 +18,29 @@
 namespace s7200::tools {
 namespace {
 
-/// The step of a scenario for an action. Without any, `why_not` says why, or it is done in another way.
+/// The step of a scenario for an action. One that does nothing is done in another way.
 struct StepOf {
+  using Step = SessionSteps::Step;
+
   Time at;
-  std::string& why_not;
 
-  SessionSteps::Step operator()(const SetMemory& set) const { return {.at = at, .set = set.assignments}; }
-  SessionSteps::Step operator()(const SendFrame& send) const { return {.at = at, .send = send.request}; }
-  SessionSteps::Step operator()(const CancelRequest&) const { return {}; }
-  SessionSteps::Step operator()(const SetPower&) const { return {}; }
-  SessionSteps::Step operator()(const serial::HostCall&) const { return {}; }
-  SessionSteps::Step operator()(const SystemEvent& event) const { return refuse(event.words); }
-  SessionSteps::Step operator()(const Jump&) const { return refuse("the program was made to go on elsewhere"); }
-  SessionSteps::Step operator()(const InjectFault& inject) const {
-    return {.at = at, .fault = inject.fault ? serial::to_text(*inject.fault) : "none", .fault_of = inject.of};
+  Result<Step> operator()(const SetMemory& set) const { return Step{.at = at, .set = set.assignments}; }
+  Result<Step> operator()(const SendFrame& send) const { return Step{.at = at, .send = send.request}; }
+  Result<Step> operator()(const CancelRequest&) const { return Step{}; }
+  Result<Step> operator()(const SetPower&) const { return Step{}; }
+  Result<Step> operator()(const serial::HostCall&) const { return Step{}; }
+  Result<Step> operator()(const SystemEvent& event) const { return refuse(event.words); }
+  Result<Step> operator()(const Jump&) const { return refuse("the program was made to go on elsewhere"); }
+  Result<Step> operator()(const InjectFault& inject) const {
+    return Step{.at = at, .fault = inject.fault ? serial::to_text(*inject.fault) : "none", .fault_of = inject.of};
   }
-  SessionSteps::Step operator()(const SetMode& set) const { return {.at = at, .mode = set.mode}; }
-  SessionSteps::Step operator()(const SetStack&) const { return refuse("the logic stack was set"); }
-  SessionSteps::Step operator()(const Force& force) const { return {.at = at, .force = force.assignments}; }
-  SessionSteps::Step operator()(const Unforce& unforce) const { return {.at = at, .unforce = unforce.places}; }
+  Result<Step> operator()(const SetMode& set) const { return Step{.at = at, .mode = set.mode}; }
+  Result<Step> operator()(const SetStack&) const { return refuse("the logic stack was set"); }
+  Result<Step> operator()(const Force& force) const { return Step{.at = at, .force = force.assignments}; }
+  Result<Step> operator()(const Unforce& unforce) const { return Step{.at = at, .unforce = unforce.places}; }
 
-  SessionSteps::Step refuse(std::string_view what) const {
-    why_not = fmt::format("{} at {}, for which scenarios have no step", what, moment_text(at));
-    return {};
+  Trouble refuse(std::string_view what) const {
+    return trouble("{} at {}, for which scenarios have no step", what, moment_text(at));
   }
 };
 
@@ -107,9 +108,9 @@ class StepsOfSession {
   }
 
   void add(const Action& action, std::size_t number, std::size_t station, Time at) {
-    std::string why_not;
-    SessionSteps::Step step = std::visit(StepOf{at, why_not}, action);
-    if (!why_not.empty()) return left_out_.push_back(why_not);
+    auto made = std::visit(StepOf{at}, action);
+    if (!made) return left_out_.push_back(made.why());
+    SessionSteps::Step step = *std::move(made);
     step.on = place(station);
     if (const auto* const cancel = std::get_if<CancelRequest>(&action)) return cut_short(*cancel, step.on, at);
     const auto* const power = std::get_if<SetPower>(&action);
@@ -203,12 +204,11 @@ class StepsOfSession {
   std::map<std::string, Time> cut_until_{};  // by place, the end of the last character of a request that was given up
 };
 
-std::optional<SessionSteps> steps_of(const SessionRecord& record, const Places& places, std::string& why) {
+Result<SessionSteps> steps_of(const SessionRecord& record, const Places& places) {
   SessionSteps session{.steps = {}, .end = record.session.now.time, .ends = {}, .last = record.last};
   StepsOfSession steps(places, record.host_stations);
   steps.add(record.session);
-  why = steps.why_nothing();
-  if (!why.empty()) return {};
+  if (!steps.why_nothing().empty()) return Trouble{steps.why_nothing()};
   for (std::size_t i = 0; i < record.stations.size(); ++i) {
     const SessionRecord::Station& station = record.stations[i];
     session.ends.push_back({steps.place(i), station.memory, station.stopped, station.fatal_code});
@@ -253,19 +253,21 @@ SessionSetup session_setup(const DebuggeeOptions& options, const Rig& rig, Debug
   std::vector<DebuggedStation> stations;
   for (const RigOptions::Station& station : options.rig.named_stations(options.master))
     stations.push_back({station.name, station.master});
-  return {.master = options.master,
-          .stations = std::move(stations),
-          .station = options.rig.first_station(),
-          .take_failure = [&live] { return live.take_failure(); },
-          .records = options.rig.recorded_files(),
-          .files = files,
-          .options = conditions(options.rig.settings(), rig.plan().plcs.front()),
-          .write_scenario = [&options](const SessionRecord& record, const FilePlace& to,
-                                       std::string& why) -> std::optional<std::vector<std::string>> {
-            auto steps = steps_of(record, options.rig.named_stations(options.master), why);
-            if (!steps || !write_session_scenario(options, options.rig.program(), *steps, to, why)) return {};
-            return steps->left_out;
-          }};
+  return {
+      .master = options.master,
+      .stations = std::move(stations),
+      .station = options.rig.first_station(),
+      .take_failure = [&live] { return live.take_failure(); },
+      .records = options.rig.recorded_files(),
+      .files = files,
+      .options = conditions(options.rig.settings(), rig.plan().plcs.front()),
+      .write_scenario = [&options](const SessionRecord& record, const FilePlace& to) -> Result<std::vector<std::string>> {
+        auto steps = steps_of(record, options.rig.named_stations(options.master));
+        if (!steps) return steps.trouble();
+        const auto done = write_session_scenario(options, options.rig.program(), *steps, to);
+        if (!done) return done.trouble();
+        return steps->left_out;
+      }};
 }
 
 PromptSettings prompt_settings(SessionSetup setup, std::atomic<bool>* pause) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/stop_token.hpp"
 #include "tools/bridge/live_run.hpp"
 #include "tools/command/options/verb/debug_options.hpp"
@@ -20,8 +21,8 @@ class DebuggeeRun {
   DebuggeeRun(RecordedRig& rig, const DebuggeeOptions& options, SystemBridges bridges, const LiveMessages& messages,
               StopToken pause);
 
-  /// Lets the bridges serve. Returns false and sets `why` if they cannot.
-  bool start(std::string& why) { return live_->start(why); }
+  /// Lets the bridges serve. Trouble if they cannot.
+  Result<> start() { return live_->start(); }
 
   /// Why a bridge cannot go on; empty as long as all can.
   const std::string& failure() const { return live_->failure(); }

@@ -14,12 +14,12 @@ namespace s7200::tools {
 std::string server_token(const std::string& token_file) {
   constexpr std::size_t kShortest = 16;
   if (token_file.empty()) return new_token();
-  std::string why;
-  const auto text = read_text(token_file, why);
+  const auto text = read_text(token_file);
   const std::string token(stl::trim(std::string_view(text.value_or("")).substr(0, text.value_or("").find('\n'))));
   if (token.size() >= kShortest) return token;
-  print_error(fmt::format("--token-file {}: {}", token_file,
-                          text ? fmt::format("its first line is not a token of {} characters or more", kShortest) : why));
+  print_error(
+      fmt::format("--token-file {}: {}", token_file,
+                  text ? fmt::format("its first line is not a token of {} characters or more", kShortest) : text.why()));
   return {};
 }
 

@@ -182,13 +182,11 @@ void take_options(const SessionSource& source, Scenario& scenario) {
   if (!is_system) scenario.plc.system_block = program->system_block;
 }
 
-/// Nothing, and `why`, if the scenario cannot be read.
-std::optional<Scenario> scenario_of(const SessionSource& source, const std::string& path, std::string& why) {
+/// Trouble if the scenario cannot be read.
+Result<Scenario> scenario_of(const SessionSource& source, const std::string& path) {
   ScenarioFile file = read_scenarios(scenario_text(source), path);
-  if (!file.diagnostics.empty() || file.scenarios.size() != 1) {
-    why = file.diagnostics.empty() ? "it has no steps" : file.diagnostics.front().message;
-    return {};
-  }
+  if (!file.diagnostics.empty() || file.scenarios.size() != 1)
+    return Trouble{file.diagnostics.empty() ? "it has no steps" : file.diagnostics.front().message};
   take_options(source, file.scenarios.front());
   return std::move(file.scenarios.front());
 }
@@ -214,18 +212,18 @@ std::string why_left_out(const SessionSteps::Step& step, const Finding& finding)
                      moment_text(step.at), finding.what, finding.found);
 }
 
-/// Runs the session as a scenario, and again without what came too late. Nothing, and `why`, if it cannot be run.
-std::optional<TriedScenario> tried(const SessionSource& source, SessionSteps& session, const std::string& path,
-                                   std::string& why) {
+/// Runs the session as a scenario, and again without what came too late. Trouble if it cannot be run.
+Result<TriedScenario> tried(const SessionSource& source, SessionSteps& session, const std::string& path) {
   for (;;) {
-    TriedScenario trial{.scenario = scenario_of(source, path, why)};
-    if (!trial.scenario) return {};
+    auto scenario = scenario_of(source, path);
+    if (!scenario) return scenario.trouble();
+    TriedScenario trial{.scenario = *std::move(scenario)};
     trial.result = run_scenario(*trial.scenario, {.program = source.program, .stop = interruption()});
-    if (interrupted()) return why = interruption_text(), std::nullopt;
+    if (interrupted()) return Trouble{std::string(interruption_text())};
     const Finding* const bad = bad_finding(trial.result);
     if (!bad || !(is_too_late(*bad) || bad->memory) || !bad->step) return trial;
     const auto late = done_in(session, *bad->step);
-    if (!late) return why = "it stands before the end of an answer: 'continue 1ms' first", std::nullopt;
+    if (!late) return Trouble{"it stands before the end of an answer: 'continue 1ms' first"};
     session.left_out.push_back(why_left_out(session.steps[*late], *bad));
     session.steps.erase(session.steps.begin() + static_cast<std::ptrdiff_t>(*late));
   }
@@ -259,32 +257,32 @@ std::string why_it_fails(const std::string& text, const std::string& path, const
 
 }  // namespace
 
-bool write_session_scenario(const DebuggeeOptions& options, const std::shared_ptr<const Program>& program,
-                            SessionSteps& session, const FilePlace& to, std::string& why) {
-  why = expects_something(session) ? without_a_key(options) : kNothingExpected;
-  if (!why.empty()) return false;
+Result<> write_session_scenario(const DebuggeeOptions& options, const std::shared_ptr<const Program>& program,
+                                SessionSteps& session, const FilePlace& to) {
+  if (!expects_something(session)) return Trouble{std::string(kNothingExpected)};
+  if (const std::string_view why = without_a_key(options); !why.empty()) return Trouble{std::string(why)};
   add_faults(session, options.rig.settings().faults);
   const SessionSource source{options, program, session};
-  auto trial = tried(source, session, to.path, why);
-  if (!trial) return false;
-  if (session.left_out.empty()) why = difference(session, *trial);
-  if (!why.empty()) return false;
+  auto trial = tried(source, session, to.path);
+  if (!trial) return trial.trouble();
+  if (std::string why = session.left_out.empty() ? difference(session, *trial) : ""; !why.empty())
+    return Trouble{std::move(why)};
   const Report report{&*trial->scenario, std::move(trial->result)};
   const std::string steps = transcript_text({report}, {.path = to.path,
                                                        .recorded_from = source.name(),
                                                        .tolerance = kTolerance,
                                                        .memory = true,
                                                        .by = "s7200 debug, record"});
-  std::string text = steps + end_text(session);
-  why = why_not_replayed(text.size());
+  const std::string text = steps + end_text(session);
+  std::string why = why_not_replayed(text.size());
   if (why.empty()) why = why_it_fails(text, to.path, program);
   if (interrupted()) why = interruption_text();
   if (!why.empty() && !session.left_out.empty() && !interrupted()) {
     session.left_out.push_back("how it stands at the end, which is another without the rest: " + why);
-    text = steps;
-    why.clear();
+    return to.write(steps);
   }
-  return why.empty() && to.write(text, why);
+  if (!why.empty()) return Trouble{std::move(why)};
+  return to.write(text);
 }
 
 }  // namespace s7200::tools

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "serial_sim/peers/requester.hpp"
 #include "tools/command/options/verb/debug_options.hpp"
 #include "tools/session/commands/session_files.hpp"
@@ -59,7 +60,7 @@ struct SessionSteps {
 
 /// Writes it: of a system file if the program of the options is one. What comes too late, because steps come one after the
 /// other, is left out too. False, and why not, if it cannot be written, or if it would not run as the session did.
-bool write_session_scenario(const DebuggeeOptions& options, const std::shared_ptr<const Program>& program,
-                            SessionSteps& session, const FilePlace& to, std::string& why);
+Result<> write_session_scenario(const DebuggeeOptions& options, const std::shared_ptr<const Program>& program,
+                                SessionSteps& session, const FilePlace& to);
 
 }  // namespace s7200::tools

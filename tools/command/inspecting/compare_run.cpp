@@ -41,9 +41,8 @@ std::optional<BehaviourResult> behaviour(const CompareOptions& options, const In
 std::optional<std::vector<MemoryRange>> watched_memory(const CompareOptions& options, const Inspection& older) {
   std::vector<MemoryRange> all;
   for (const std::string& word : options.watched) {
-    std::string why;
-    const auto range = parse_range(word, *older.program, why);
-    if (!range) return print_error(fmt::format("--watch: {}", why)), std::nullopt;
+    const auto range = parse_range(word, *older.program);
+    if (!range) return print_error(fmt::format("--watch: {}", range.why())), std::nullopt;
     all.push_back(*range);
   }
   return all;
@@ -54,11 +53,10 @@ ExitCode write_scenario(const CompareOptions& options, const OldAndNew& files, c
                         const Inspection& newer, const std::optional<BehaviourResult>& result, const TrialFile& file) {
   if (options.write.empty()) return kFine;
   if (!result || !result->difference) return print_note("--write: no difference of behaviour, nothing is written"), kFine;
-  std::string why;
   const ScenarioOrigin origin = scenario_origin(options.write, files.older.path, files.old_parts, options.cpu);
-  const std::string text = difference_scenario(older, newer, *result, options.write, origin, why);
-  if (text.empty()) return print_note(fmt::format("--write: nothing is written: {}", why)), kFine;
-  return file.write(text) ? kFine : kUnusable;
+  const auto text = difference_scenario(older, newer, *result, options.write, origin);
+  if (!text) return print_note(fmt::format("--write: nothing is written: {}", text.why())), kFine;
+  return file.write(*text) ? kFine : kUnusable;
 }
 
 }  // namespace

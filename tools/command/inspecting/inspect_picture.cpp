@@ -13,15 +13,14 @@ bool Picture::claim(const std::string& path, const InspectView& view, const std:
   if (!view.svg) return print_error(fmt::format("--svg: there is no picture of the view {}", view.name)), false;
   WrittenFiles files;
   for (const std::string& input : inputs) files.reads(input);
-  std::string why;
-  destination_ = files.claim("--svg", path, {"a picture", std::string(kPictureBegins)}, Replace::Own, why);
-  if (!destination_) print_error(why);
+  auto claimed = files.claim("--svg", path, {"a picture", std::string(kPictureBegins)}, Replace::Own);
+  if (!claimed) print_error(claimed.why());
+  destination_ = std::move(claimed).if_any();
   return destination_.has_value();
 }
 
 int Picture::write(const InspectView& view, const Inspection& inspection) const {
-  std::string why;
-  if (!write_result(*destination_, view.svg(inspection), why)) return print_error(why), kUnusable;
+  if (const auto done = write_result(*destination_, view.svg(inspection)); !done) return print_error(done.why()), kUnusable;
   print_note(fmt::format("{}: the {} of {}", destination_->path, view.name, inspection.program->source.name));
   return kFine;
 }

@@ -62,15 +62,12 @@ std::optional<Inspection> inspected(const CpuOptions& options, ProgramFiles& fil
   inspection->lose_word = worst_instant;
   inspection->see_times = seen_times;
   inspection->slowest = [&file, model, times] { return decode_program(file.text.parsed, *model, slowest(*times)).known; };
-  std::string why;
-  auto selection = parse_selection(question.about, inspection->facts, why);
-  if (selection && !question.view.of_memory && !selection->memory.empty()) {
-    why = fmt::format("'{}': {} keeps to routines and networks, not to addresses", selection->memory.front().text,
-                      question.view.name);
-    selection.reset();
-  }
+  auto selection = parse_selection(question.about, inspection->facts);
+  if (selection && !question.view.of_memory && !selection->memory.empty())
+    selection = trouble("'{}': {} keeps to routines and networks, not to addresses", selection->memory.front().text,
+                        question.view.name);
   if (!selection) {
-    print_error(fmt::format("{}: {}", file.path, why));
+    print_error(fmt::format("{}: {}", file.path, selection.why()));
     return exit_code = kUnusable, std::nullopt;
   }
   inspection->selection = std::move(*selection);

@@ -70,11 +70,10 @@ void run_first_scan(serial::Simulation& simulation) {
 
 std::unique_ptr<serial::Simulation> pictured(std::shared_ptr<const Program> program, const std::string& memory_file,
                                              const std::vector<std::string>& set) {
-  std::string why;
   std::vector<Assignment> assigned;
   for (const std::string& text : set) {
-    const auto assignment = parse_assignment(text, *program, why);
-    if (!assignment) return print_error(fmt::format("--set: {}", why)), nullptr;
+    const auto assignment = parse_assignment(text, *program);
+    if (!assignment) return print_error(fmt::format("--set: {}", assignment.why())), nullptr;
     assigned.push_back(*assignment);
   }
   auto simulation = std::make_unique<serial::Simulation>(std::move(program));
@@ -85,9 +84,10 @@ std::unique_ptr<serial::Simulation> pictured(std::shared_ptr<const Program> prog
     keep_assigned(simulation->cpu(), assigned);
     return simulation;
   }
-  const auto text = read_file(memory_file, why);
-  const auto memory = text ? memory_from_json(*text, *simulation->cpu().program().model, why) : std::nullopt;
-  if (!memory) return print_error(fmt::format("--memory: cannot use {}: {}", memory_file, why)), nullptr;
+  const auto memory = read_file(memory_file).and_then([&](const std::string& text) {
+    return memory_from_json(text, *simulation->cpu().program().model);
+  });
+  if (!memory) return print_error(fmt::format("--memory: cannot use {}: {}", memory_file, memory.why())), nullptr;
   put_picture(simulation->cpu(), *memory, assigned);
   print_note(fmt::format("{} has V, M, T and C memory; inputs and all else count as 0 unless --set says what they have",
                          memory_file));

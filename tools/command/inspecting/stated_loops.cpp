@@ -30,29 +30,22 @@ std::string lines_text(const Program& program) {
 
 }  // namespace
 
-std::optional<StatedLoops> stated_loops(const Program& program, std::string_view view, const std::vector<std::string>& texts,
-                                        std::string& why) {
+Result<StatedLoops> stated_loops(const Program& program, std::string_view view, const std::vector<std::string>& texts) {
   StatedLoops stated;
-  if (!texts.empty() && !is_among(view, {"bounds", "document"})) {
-    why = "--loop is for the views bounds and document";
-    return {};
-  }
+  if (!texts.empty() && !is_among(view, {"bounds", "document"}))
+    return Trouble{"--loop is for the views bounds and document"};
   for (const std::string& text : texts) {
     const std::size_t sign = std::min(text.find('='), text.size());
     const auto line = parse_decimal<std::size_t>(std::string_view(text).substr(0, sign));
     const auto times = parse_decimal<std::int64_t>(std::string_view(text).substr(std::min(sign + 1, text.size())));
-    if (!line || !times || *times < 1) {
-      why = fmt::format("--loop {}: it takes the line of a loop and how often it runs at most, for example --loop 445=8",
-                        stl::shortened(text));
-      return {};
-    }
+    if (!line || !times || *times < 1)
+      return trouble("--loop {}: it takes the line of a loop and how often it runs at most, for example --loop 445=8",
+                     stl::shortened(text));
     const auto loops = loops_of(program);
     const auto found = std::ranges::find(loops, *line, [&](std::uint32_t op) { return line_of(program, op); });
-    if (found == loops.end()) {
-      why = fmt::format("--loop {}: no FOR and no JMP back is in line {}; {}", stl::shortened(text), *line,
-                        lines_text(program));
-      return {};
-    }
+    if (found == loops.end())
+      return trouble("--loop {}: no FOR and no JMP back is in line {}; {}", stl::shortened(text), *line,
+                     lines_text(program));
     stated[*found] = *times;
   }
   return stated;

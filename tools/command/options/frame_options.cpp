@@ -58,7 +58,7 @@ void FrameOptions::add_to(CLI::App& app) {
   app.add_flag("--crc", crc_, "append the Modbus CRC to each frame")->group(help_group::kRequests);
 }
 
-std::optional<std::vector<serial::Frame>> FrameOptions::read(std::string& why) const {
+Result<std::vector<serial::Frame>> FrameOptions::read() const {
   struct Written {
     std::string text, place;
     serial::ParsedFrame (*parse)(std::string_view);
@@ -73,12 +73,8 @@ std::optional<std::vector<serial::Frame>> FrameOptions::read(std::string& why) c
                        is_text ? parse_text : parse_hex_with_crc});
   }
   if (!file_.empty()) {
-    std::string reason;
-    const auto bytes = read_text(file_, reason);
-    if (!bytes) {
-      why = fmt::format("cannot read {}: {}", file_, reason);
-      return {};
-    }
+    const auto bytes = read_text(file_);
+    if (!bytes) return trouble("cannot read {}: {}", file_, bytes.why());
     std::istringstream lines(*bytes);
     std::size_t number = 0;
     for (std::string line; std::getline(lines, line);) {
@@ -88,17 +84,11 @@ std::optional<std::vector<serial::Frame>> FrameOptions::read(std::string& why) c
         written.push_back({line, fmt::format("{}:{}", file_, number), parse_hex_or_quoted});
     }
   }
-  if (written.empty()) {
-    why = "no frame to send: give frames in hex, --text, or --frames FILE";
-    return {};
-  }
+  if (written.empty()) return Trouble{"no frame to send: give frames in hex, --text, or --frames FILE"};
   std::vector<serial::Frame> frames;
   for (const Written& w : written) {
     serial::ParsedFrame parsed = w.parse(w.text);
-    if (!parsed.ok()) {
-      why = fmt::format("{}: column {}: {}", w.place, parsed.errors[0].column, parsed.errors[0].message);
-      return {};
-    }
+    if (!parsed.ok()) return trouble("{}: column {}: {}", w.place, parsed.errors[0].column, parsed.errors[0].message);
     if (crc_) modbus::append_crc(parsed.frame);
     frames.push_back(std::move(parsed.frame));
   }

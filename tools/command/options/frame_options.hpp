@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "serial_sim/line/frame.hpp"
 
 namespace CLI {
@@ -18,9 +19,9 @@ class FrameOptions {
  public:
   void add_to(CLI::App& app);
 
-  /// All frames of the command line and the file, in their order. Returns nothing and sets `why` if there is none, or one
+  /// All frames of the command line and the file, in their order. Trouble if there is none, or one
   /// that is not a frame.
-  std::optional<std::vector<serial::Frame>> read(std::string& why) const;
+  Result<std::vector<serial::Frame>> read() const;
 
   /// Those in hex, as they were written.
   const std::vector<std::string>& in_hex() const { return frames_; }

@@ -66,9 +66,8 @@ CLI::Option* add_duration(CLI::App& app, const std::string& name, Time& value, c
       .add_option_function<std::string>(
           name,
           [name, &value, range](const std::string& given) {
-            std::string why;
-            const auto duration = parse_duration_in(given, range, why);
-            if (!duration) throw CLI::ValidationError(name, why);
+            const auto duration = parse_duration_in(given, range);
+            if (!duration) throw CLI::ValidationError(name, duration.why());
             value = *duration;
           },
           text)

@@ -12,7 +12,7 @@ void GrowingTranscript::add(const SuiteResult& so_far, const Scenario& scenario,
     transcript_.live = so_far.live;
     transcript_.tolerance = tolerance_for(tolerance_, so_far.live);
     report_.scenario = &scenario;
-    file_.begin(to_, trouble_);
+    done_ = file_.begin(to_);
     put(transcript_heading(transcript_));
     writer_.emplace(transcript_).begin(report_);
   }
@@ -22,16 +22,16 @@ void GrowingTranscript::add(const SuiteResult& so_far, const Scenario& scenario,
 
 void GrowingTranscript::put(const std::string& text) {
   bytes_ += text.size();
-  if (trouble_.empty()) file_.add(text, trouble_);
+  if (done_) done_ = file_.add(text);
 }
 
 bool GrowingTranscript::complete() {
-  if (trouble_.empty())
+  if (done_)
     if (const std::string why = why_not_replayed(bytes_); !why.empty())
-      trouble_ = fmt::format("cannot write {}: {}", transcript_.path, why);
-  if (trouble_.empty()) file_.complete(trouble_);
-  if (!trouble_.empty()) print_error(trouble_);
-  return trouble_.empty();
+      done_ = trouble("cannot write {}: {}", transcript_.path, why);
+  if (done_) done_ = file_.complete();
+  if (!done_) print_error(done_.why());
+  return bool(done_);
 }
 
 }  // namespace s7200::tools

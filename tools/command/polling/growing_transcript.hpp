@@ -35,7 +35,7 @@ class GrowingTranscript {
   GrowingResult file_;
   std::optional<TranscriptWriter> writer_;
   std::size_t bytes_ = 0;
-  std::string trouble_;
+  Result<> done_;
 };
 
 }  // namespace s7200::tools

@@ -88,9 +88,8 @@ std::string joined_by_commas(const Words& words) {
 bool names_its_area(const std::string& address, const std::string& area) {
   constexpr std::size_t kNotation = 5;  // digits
   if (address.size() < kNotation || !std::ranges::all_of(address, stl::is_digit)) return false;
-  std::string why;
-  const auto named = modbus::parse_address(address, why);
-  if (!named) throw std::invalid_argument(why);
+  const auto named = modbus::parse_address(address);
+  if (!named) throw std::invalid_argument(named.why());
   const modbus::AreaRow& row = modbus::row_of(named->area);
   if (row.word != area)
     throw std::invalid_argument(fmt::format("{} is a {}, and this key is for {}", address, row.singular, area));
@@ -220,12 +219,8 @@ void Menu::draw() {
 
 /// The terminal has another size, or the process goes on.
 void Menu::look_again() {
-  std::string why;
-  if (!screen_.on())
-    screen_.switch_on(why);
-  else
-    screen_.fit(why);
-  if (!why.empty()) fmt::print("{}\n", why);
+  const auto shown = screen_.on() ? screen_.fit() : screen_.switch_on();
+  if (!shown.why().empty()) fmt::print("{}\n", shown.why());
   draw();
 }
 
@@ -432,8 +427,7 @@ std::optional<std::string> Menu::read() {
 }
 
 int Menu::run() {
-  std::string why;
-  if (!screen_.switch_on(why)) return print_error(why), kUnusable;
+  if (const auto done = screen_.switch_on(); !done) return print_error(done.why()), kUnusable;
   editor_.when_changed([this] { look_again(); });
   if (!keys_are_in_view()) fmt::print("M shows the menu, H helps, Q quits; Enter follows each key.\n");
   while (!quit_) {

@@ -101,9 +101,9 @@ int run_on_program_band(MasterOptions& options, const std::vector<MasterAction>&
     if (recorder) recorder->listen_to(slave);
     MasterSession session(slave, actions, options.session(true));
     std::vector<BandOutcome> outcomes;
-    std::string why;
-    if (!slave.wait_until_ready(options.after, why)) return outcomes;
-    if (why = why_no_other_master(rig, 0, *options.protocol); !why.empty()) throw std::invalid_argument(why);
+    if (!slave.wait_until_ready(options.after)) return outcomes;
+    if (const std::string why = why_no_other_master(rig, 0, *options.protocol); !why.empty())
+      throw std::invalid_argument(why);
     lost.take();
     const auto add = [&](const MasterResult& result) {
       outcomes.push_back({result.exchange, verdict_name(result.answer.verdict), lost.take(), stop_text(rig.cpu())});
@@ -167,10 +167,9 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
   if (recorder) recorder->listen_to(slave);
   MasterSession session(slave, actions, options.session(true));
   MasterOutput output(options.output(), slave.name());
-  std::string why;
   if (options.after == kNever) run_first_scans(*rig, kReadyWithin);
-  const bool ready = slave.wait_until_ready(options.after, why);
-  if (ready) why = why_no_other_master(*rig, options.rig.line(), *options.protocol);
+  const auto ready = slave.wait_until_ready(options.after);
+  const std::string why = ready ? why_no_other_master(*rig, options.rig.line(), *options.protocol) : ready.why();
   if (ready && !why.empty()) {
     print_error(why);
     output.begin();

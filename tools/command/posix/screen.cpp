@@ -12,6 +12,7 @@
 #include <iostream>
 #include <string_view>
 
+#include "interpreter/base/result.hpp"
 #include "tools/host/interruption.hpp"
 
 // Last: they define many short names as macros.
@@ -94,18 +95,16 @@ void put(const std::string& text) {
 
 }  // namespace
 
-bool Screen::switch_on(std::string& why) {
+Result<> Screen::switch_on() {
   int error = 0;
-  if (setupterm(nullptr, STDOUT_FILENO, &error) != OK || !capability("csr") || !capability("cup") || !capability("el")) {
-    why = "this terminal cannot keep a part of the screen in place; TERM says which one it is";
-    return false;
-  }
-  if (!measure(why)) return false;
+  if (setupterm(nullptr, STDOUT_FILENO, &error) != OK || !capability("csr") || !capability("cup") || !capability("el"))
+    return Trouble{"this terminal cannot keep a part of the screen in place; TERM says which one it is"};
+  if (const auto done = measure(); !done) return done.trouble();
   on_ = true;
-  if (!fit(why)) return false;
+  if (const auto done = fit(); !done) return done.trouble();
   for (const int number : kKilling) set_handler(number, restore_and_go);
   before_the_kill(restore_at_once);
-  return true;
+  return {};
 }
 
 void Screen::switch_off() {
@@ -118,28 +117,27 @@ void Screen::switch_off() {
 }
 
 /// The terminal as it is now; false if it is too small.
-bool Screen::measure(std::string& why) {
+Result<> Screen::measure() {
   winsize size{};
   if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) size = {};
   columns_ = size.ws_col;
   rows_ = size.ws_row;
-  if (columns_ >= plan_.fewest_columns && rows_ >= plan_.fewest_rows) return true;
-  why = fmt::format("{} needs a terminal of {}×{}, and this one has {}×{}", plan_.name, plan_.fewest_columns,
-                    plan_.fewest_rows, columns_, rows_);
-  return false;
+  if (columns_ >= plan_.fewest_columns && rows_ >= plan_.fewest_rows) return {};
+  return trouble("{} needs a terminal of {}×{}, and this one has {}×{}", plan_.name, plan_.fewest_columns, plan_.fewest_rows,
+                 columns_, rows_);
 }
 
-bool Screen::fit(std::string& why) {
-  if (!measure(why)) {
+Result<> Screen::fit() {
+  if (const auto done = measure(); !done) {
     switch_off();
-    return false;
+    return done;
   }
   view_rows_ = plan_.view(columns_, rows_);
   const std::string restore = with("csr", 0, rows_ - 1) + plain("sgr0") + with("cup", rows_ - 1, 0) + "\n";
   std::strncpy(restoring, restore.c_str(), sizeof restoring - 1);
   restoring_length = static_cast<int>(std::strlen(restoring));
   put(plain("clear") + with("csr", view_rows_, rows_ - 1) + with("cup", view_rows_, 0));
-  return true;
+  return {};
 }
 
 void Screen::draw(const std::vector<std::string>& rows) {

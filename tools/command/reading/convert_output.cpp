@@ -43,8 +43,7 @@ void print_json(const ConvertOptions& options, const SourceText& source, const s
 
 /// What reads the file again guesses its encoding.
 std::string encoding_note(const std::string& text, const std::string& encoded, const std::string& encoding) {
-  std::string why;
-  const auto again = stl::decode(encoded, why);
+  const auto again = stl::decode(encoded);
   if (!again || again->text == text) return {};
   return fmt::format("when this is read again it is taken for {}, not for {}: comments and texts will look different",
                      again->encoding, encoding);
@@ -53,13 +52,12 @@ std::string encoding_note(const std::string& text, const std::string& encoded, c
 }  // namespace
 
 int write_converted(const ConvertOptions& options, const SourceText& source, const std::string& text) {
-  std::string why;
-  const auto encoded = stl::encode(text, options.encoding, why);
-  if (!encoded) return print_error("--encoding: " + why + "; nothing was written"), kUnusable;
+  const auto encoded = stl::encode(text, options.encoding);
+  if (!encoded) return print_error("--encoding: " + encoded.why() + "; nothing was written"), kUnusable;
   print_note_if_any(encoding_note(text, *encoded, options.encoding));
   const std::string symbols = symbols_of(options, source);
-  const auto table = symbols.empty() ? std::nullopt : stl::encode(symbols, options.encoding, why);
-  if (!symbols.empty() && !table) return print_error("--encoding: " + why + "; nothing was written"), kUnusable;
+  const auto table = symbols.empty() ? std::nullopt : stl::encode(symbols, options.encoding);
+  if (!symbols.empty() && !table) return print_error("--encoding: " + table.why() + "; nothing was written"), kUnusable;
   std::vector<std::string> inputs = options.program.parts;
   inputs.push_back(options.program.path);
   int exit_code = kFine;

@@ -59,8 +59,7 @@ Json sources_json(const stl::Source& source) {
 void add_shortcuts(Json& recorded, Time end, Json opened) {
   Json last;
   page::Engine engine([&last](const std::string& message) {
-    std::string why;
-    if (auto json = parse_json(message, why); json && json->contains("id")) last = std::move(*json);
+    if (auto json = parse_json(message); json && json->contains("id")) last = std::move(*json);
   });
   opened["recording"] = recorded;
   engine.take(line_of({{"id", 1}, {"open", opened}}));

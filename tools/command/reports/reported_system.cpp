@@ -16,8 +16,8 @@ namespace {
 /// Files of this computer; what was read is kept.
 class ReadFiles final : public FileSource {
  public:
-  std::optional<std::string> read(const std::string& path, std::string& why) const override {
-    auto bytes = host_files().read(path, why);
+  Result<std::string> read(const std::string& path) const override {
+    auto bytes = host_files().read(path);
     if (bytes) read_[path] = *bytes;
     return bytes;
   }
@@ -47,15 +47,15 @@ void name_cpus(YamlNode& root, const SystemPlan& plan) {
 
 }  // namespace
 
-std::shared_ptr<const page::CarriedSystem> reported_system(const std::string& path, const SystemPlan& plan,
-                                                           std::vector<Spot> spots, std::string& why) {
-  const auto text = read_text(path, why);
-  if (!text) return why = fmt::format("cannot read {}: {}", path, why), nullptr;
+Result<std::shared_ptr<const page::CarriedSystem>> reported_system(const std::string& path, const SystemPlan& plan,
+                                                                   std::vector<Spot> spots) {
+  const auto text = read_text(path);
+  if (!text) return trouble("cannot read {}: {}", path, text.why());
   SystemFile read;
   auto root = read_yaml(*text, *source_of(*text, path), read.file.diagnostics, kSystemDocument);
   const ReadFiles files;
   if (root) read = read_system(*root, path, files);
-  if (!root || !read.ok()) return why = fmt::format("{} is another file by now", path), nullptr;
+  if (!root || !read.ok()) return trouble("{} is another file by now", path);
   name_cpus(*root, read.plan);
   page::CarriedSystem system{.path = file_path(path).generic_string(), .root = std::move(*root)};
   system.files = ReadFiles(files).taken();

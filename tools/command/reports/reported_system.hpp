@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "tools/faces/page/engine/carried_system.hpp"
 #include "tools/plan/system_plan.hpp"
 
 namespace s7200::tools {
 
-/// `plan`: as it is run. `spots`: where masters have joined it. Nothing, and `why`, if a file has gone meanwhile.
-std::shared_ptr<const page::CarriedSystem> reported_system(const std::string& path, const SystemPlan& plan,
-                                                           std::vector<Spot> spots, std::string& why);
+/// `plan`: as it is run. `spots`: where masters have joined it. Trouble if a file has gone meanwhile.
+Result<std::shared_ptr<const page::CarriedSystem>> reported_system(const std::string& path, const SystemPlan& plan,
+                                                                   std::vector<Spot> spots);
 
 }  // namespace s7200::tools

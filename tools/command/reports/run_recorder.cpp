@@ -52,9 +52,9 @@ bool write_run(const ReportOption& report, std::string_view verb, const Rig& rig
     run.around = surroundings_of(rig.plan());
     run.repairs = repairs;
   } else {
-    std::string why;
-    run.system = reported_system(path, rig.plan(), asked_at(rig, spot), why);
-    if (!run.system) return print_error("--report: " + why), false;
+    const auto system = reported_system(path, rig.plan(), asked_at(rig, spot));
+    if (!system) return print_error("--report: " + system.why()), false;
+    run.system = *system;
   }
   run.recordings.push_back(std::move(recording));
   return report.write(verb, {run});

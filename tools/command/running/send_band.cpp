@@ -17,8 +17,7 @@ std::vector<BandOutcome> outcomes(const SendOptions& options, serial::Simulation
   SimulatedSlave slave(simulation, options.master, name, true);  // in STOP its port speaks PPI
   if (recorder) recorder->listen_to(slave);
   std::vector<BandOutcome> outcomes;
-  std::string why;
-  bool going = slave.wait_until_ready(options.after, why);
+  bool going(slave.wait_until_ready(options.after));
   for (const serial::Frame& frame : frames) {
     if (!going) break;
     lost.take();
@@ -43,9 +42,8 @@ std::string shortened(const serial::Frame& frame) {
 }  // namespace
 
 int run_send_band(SendOptions& options) {
-  std::string why;
-  const auto frames = options.frames.read(why);
-  if (!frames) return print_error(why), kUnusable;
+  const auto frames = options.frames.read();
+  if (!frames) return print_error(frames.why()), kUnusable;
   BandExchanges exchanges{.verb = "send", .key = "request", .labels = {}, .good = "answered", .run = {}};
   for (const serial::Frame& frame : *frames)
     exchanges.labels.push_back({"request  " + shortened(frame), plain_hex(serial::bytes_of(frame))});

@@ -19,10 +19,10 @@ std::unique_ptr<SlaveInSimulation> slave_to_send_to(const SendOptions& options, 
   if (unanswered) unanswered->listen_to(*program);
   if (recorder) recorder->listen_to(*program);
   if (options.after == kNever) run_first_scans(rig, kReadyWithin);
-  std::string why;
-  ready = program->wait_until_ready(options.after, why);
+  const auto waited = program->wait_until_ready(options.after);
+  ready = bool(waited);
   if (ready) print_note_if_any(program->note_on_port());
-  if (!why.empty()) print_error(why);
+  if (!waited.why().empty()) print_error(waited.why());
   return program;
 }
 

@@ -91,10 +91,9 @@ std::optional<SystemBridges> make_bridges(const SystemPlan& plan) {
     for (const StationPlan& station : line.stations) {
       if (station.kind != StationPlan::Kind::Bridge) continue;
       const BridgePlan& bridge = plan.bridges[station.number];
-      std::string why;
-      bridges[station.number] = make_bridge(bridge.kind, bridge.where, line.settings, kBridgeTimeout, why);
-      if (!bridges[station.number])
-        return print_error(fmt::format("bridge {} at {}: {}", bridge.name, bridge.where, why)), std::nullopt;
+      auto made = make_bridge(bridge.kind, bridge.where, line.settings, kBridgeTimeout);
+      if (!made) return print_error(fmt::format("bridge {} at {}: {}", bridge.name, bridge.where, made.why())), std::nullopt;
+      bridges[station.number] = *std::move(made);
     }
   return bridges;
 }

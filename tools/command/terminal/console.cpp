@@ -47,9 +47,9 @@ class LayoutScreen {
   explicit LayoutScreen(Prompt& debugger) : debugger_(debugger) {}
 
   Prompt::Error turn(bool on) {
-    std::string why;
     if (!on) screen_.switch_off();
-    if (on && !screen_.on() && !screen_.switch_on(why)) return why;
+    if (on && !screen_.on())
+      if (const auto done = screen_.switch_on(); !done) return done.why();
     wanted_ = on;
     return {};
   }
@@ -60,13 +60,13 @@ class LayoutScreen {
 
   /// The terminal has another size, or the process has been stopped and goes on.
   void fit() {
-    std::string why;
     const bool was_shown = shown();
     if (!wanted_) return;
-    if (was_shown ? screen_.fit(why) : screen_.switch_on(why))
+    const auto done = was_shown ? screen_.fit() : screen_.switch_on();
+    if (done)
       draw();
     else if (was_shown)
-      std::cout << why << "; it comes back when there is room\n" << std::flush;
+      std::cout << done.why() << "; it comes back when there is room\n" << std::flush;
   }
 
  private:

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
+
 namespace s7200::tools {
 
 class Screen {
@@ -26,7 +28,7 @@ class Screen {
   Screen& operator=(const Screen&) = delete;
 
   /// False, and why not, if this terminal cannot do it or is too small.
-  bool switch_on(std::string& why);
+  Result<> switch_on();
   void switch_off();
   bool on() const { return on_; }
 
@@ -37,11 +39,11 @@ class Screen {
   /// Rows of the view, the first in reverse; what is too wide is cut. Nothing while it is off.
   void draw(const std::vector<std::string>& rows);
 
-  /// The terminal has another size, or the process goes on. The view goes when there is no room, and `why` says so.
-  bool fit(std::string& why);
+  /// The terminal has another size, or the process goes on. The view goes when there is no room, which is trouble.
+  Result<> fit();
 
  private:
-  bool measure(std::string& why);
+  Result<> measure();
 
   Plan plan_;
   bool on_ = false;

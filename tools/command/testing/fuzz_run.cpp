@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "interpreter/base/file_path.hpp"
+#include "interpreter/base/result.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/inspecting/inspected_program.hpp"
 #include "tools/command/options/plc/tables_by_cpu.hpp"
@@ -23,18 +24,16 @@
 namespace s7200::tools {
 namespace {
 
-/// `VB0..VB999`, `VB0:1000`. Nothing, and `why`, if it is no V memory.
-std::optional<MemoryRange> written_range(const std::string& text, const Program& program, std::string& why) {
+/// `VB0..VB999`, `VB0:1000`. Trouble if it is no V memory.
+Result<MemoryRange> written_range(const std::string& text, const Program& program) {
   const auto dots = text.find("..");
-  auto range = parse_range(text.substr(0, dots), program, why);
-  if (!range) return {};
+  auto range = parse_range(text.substr(0, dots), program);
+  if (!range) return range.trouble();
   if (dots != std::string::npos) {
-    const auto last = parse_range(text.substr(dots + 2), program, why);
-    if (!last) return {};
-    if (last->area != range->area || last->at < range->at) {
-      why = fmt::format("'{}' has its last address before the first", text);
-      return {};
-    }
+    const auto last = parse_range(text.substr(dots + 2), program);
+    if (!last) return last.trouble();
+    if (last->area != range->area || last->at < range->at)
+      return trouble("'{}' has its last address before the first", text);
     *range = {.area = range->area,
               .width = Width::Byte,
               .number = range->number,
@@ -42,24 +41,22 @@ std::optional<MemoryRange> written_range(const std::string& text, const Program&
               .at = range->at};
   }
   if (range->area == Area::V) return range;
-  why = fmt::format("'{}' is not in V memory", text);
-  return {};
+  return trouble("'{}' is not in V memory", text);
 }
 
 /// Nothing after a message.
 std::optional<FuzzSettings> settings_of(const FuzzOptions& options, const Program& program) {
   FuzzSettings settings{.seed = options.bound.seed, .runs = options.bound.runs, .seconds = options.bound.seconds};
   settings.answers_within = options.answers_within;
-  std::string why;
   for (const std::string& text : options.writes) {
-    const auto range = written_range(text, program, why);
-    if (!range) return print_error(fmt::format("--writes: {}", why)), std::nullopt;
+    const auto range = written_range(text, program);
+    if (!range) return print_error(fmt::format("--writes: {}", range.why())), std::nullopt;
     settings.writes.push_back(*range);
   }
   for (const std::string& text : options.never) {
-    auto rule = Expression::parse(text, program, why);
-    if (rule && rule->places().empty()) why = fmt::format("'{}' has no address, so it always holds or never does", text);
-    if (!why.empty()) return print_error(fmt::format("--never: {}", why)), std::nullopt;
+    auto rule = Expression::parse(text, program);
+    if (rule && rule->places().empty()) rule = trouble("'{}' has no address, so it always holds or never does", text);
+    if (!rule) return print_error(fmt::format("--never: {}", rule.why())), std::nullopt;
     settings.never.push_back(std::move(*rule));
   }
   settings.stop = interruption();
@@ -79,13 +76,12 @@ ExitCode write_scenarios(const FuzzOptions& options, const Inspection& inspectio
   }
   for (std::size_t i = 0; i < result.findings.size(); ++i) {
     const std::string path = (folder / fmt::format("finding_{}.yaml", i + 1)).string();
-    std::string why;
     const ScenarioOrigin origin = scenario_origin(path, program, parts, options.cpu);
-    const std::string text = finding_scenario(inspection, result, result.findings[i], path, origin, why);
+    const auto text = finding_scenario(inspection, result, result.findings[i], path, origin);
     TrialFile file;
-    if (text.empty())
-      print_note(fmt::format("finding {} is not written: {}", i + 1, why));
-    else if (!file.claim("--write", path, "fuzz", options.files) || !file.write(text))
+    if (!text)
+      print_note(fmt::format("finding {} is not written: {}", i + 1, text.why()));
+    else if (!file.claim("--write", path, "fuzz", options.files) || !file.write(*text))
       return kUnusable;
   }
   return kFine;

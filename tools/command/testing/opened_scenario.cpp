@@ -40,8 +40,7 @@ const Finding* finding_with_place(const ScenarioResult& result) {
 }  // namespace
 
 bool is_scenario_file(const std::string& path) {
-  std::string why;
-  const auto text = is_yaml_file(path) ? read_text(path, why) : std::nullopt;
+  const auto text = is_yaml_file(path) ? read_text(path) : std::nullopt;
   if (!text) return false;
   stl::Diagnostics ignored;
   const auto root = read_yaml(*text, *source_of(*text, path), ignored);

@@ -57,6 +57,6 @@ void print_messages(const Messages& messages);
 void end_before_anything_ran(bool json, bool compares);
 
 /// False after a message. Writes nothing where nothing was asked for.
-bool write_result(const std::optional<Destination>& to, const std::string& text);
+bool write_wanted(const std::optional<Destination>& to, const std::string& text);
 
 }  // namespace s7200::tools

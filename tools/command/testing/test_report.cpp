@@ -59,14 +59,13 @@ ReportedRun reported(const Report& report) {
       run.findings.push_back(reported_finding(scenario, finding));
       run.findings.back().text += fmt::format("; with {}", result.band->failed_with);
     }
-  std::string why;
   if (scenario.plan && !result.recordings.empty() && can_be_carried(result.recordings))
-    run.system = reported_system(scenario.system, *scenario.plan, result.spots, why);
+    run.system = reported_system(scenario.system, *scenario.plan, result.spots).value_or(nullptr);
   if (run.system) run.recordings = result.recordings;
   if (!result.program) return run;
   run.program = result.program;
   run.around = {.port = scenario.port, .plc = scenario.plc, .field = scenario.field, .faults = {}, .kept = {}};
-  run.repairs = parse_repairs(scenario.repair.empty() ? "none" : scenario.repair, why);
+  run.repairs = parse_repairs(scenario.repair.empty() ? "none" : scenario.repair).value_or(Repairs{});
   run.recordings = result.recordings;
   return run;
 }
@@ -98,17 +97,17 @@ bool write_reports(const TestOptions& options, const TestOptions::Destinations& 
     if (!options.report.wanted()) return {};
     return [address](std::size_t number) { return link_to_run(address, number); };
   };
-  bool written = !to.junit || write_result(to.junit, to_junit(reports, link_to(page)));
+  bool written = !to.junit || write_wanted(to.junit, to_junit(reports, link_to(page)));
   if (to.markdown) {
     const std::string address = options.report.wanted() ? address_beside(page, to.markdown->path) : "";
-    written &= write_result(to.markdown, to_markdown(reports, link_to(address)));
+    written &= write_wanted(to.markdown, to_markdown(reports, link_to(address)));
   }
   return options.report.write("test", reported_runs(reports)) && written;
 }
 
 void write_reports(const TestOptions::Destinations& to, const Messages& messages) {
-  if (to.junit) write_result(to.junit, to_junit(messages));
-  if (to.markdown) write_result(to.markdown, to_markdown(messages));
+  if (to.junit) write_wanted(to.junit, to_junit(messages));
+  if (to.markdown) write_wanted(to.markdown, to_markdown(messages));
 }
 
 bool show_profile(const TestOptions& options, const SuiteResult& result) {

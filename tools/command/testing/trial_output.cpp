@@ -15,15 +15,15 @@ bool TrialFile::claim(const std::string& option, const std::string& path, const 
   if (path.empty()) return true;
   WrittenFiles files;
   for (const std::string& input : inputs) files.reads(input);
-  std::string why;
-  destination_ = files.claim(option, path, {"a scenario", fmt::format("# Found by s7200 {}", verb)}, Replace::Own, why);
-  if (!destination_) print_error(why);
+  auto claimed = files.claim(option, path, {"a scenario", fmt::format("# Found by s7200 {}", verb)}, Replace::Own);
+  if (!claimed) print_error(claimed.why());
+  destination_ = std::move(claimed).if_any();
   return destination_.has_value();
 }
 
 bool TrialFile::write(const std::string& scenario) const {
-  std::string why;
-  if (!write_result(*destination_, destination_->kind.beginning + ".\n" + scenario, why)) return print_error(why), false;
+  if (const auto done = write_result(*destination_, destination_->kind.beginning + ".\n" + scenario); !done)
+    return print_error(done.why()), false;
   print_note(fmt::format("{}: a scenario", destination_->path));
   return true;
 }

@@ -34,22 +34,19 @@ nlohmann::ordered_json measured_with(const ProgramOptions& options, const Progra
 }
 
 std::optional<EarlierBench> read_earlier_bench(const std::string& path) {
-  std::string why;
-  const auto text = read_text(path, why);
-  std::string not_json;
-  const nlohmann::json json = parse_json(text.value_or(""), not_json).value_or(nlohmann::ordered_json());
+  const auto text = read_text(path);
+  const nlohmann::json json = parse_json(text.value_or("")).value_or(nlohmann::ordered_json());
   const bool printed =
       json.is_object() && json.contains("figures") && json["figures"].is_array() && !json["figures"].empty();
   if (!text || !printed) {
-    print_error(fmt::format("cannot read {}: {}", path, text ? "it is not what `s7200 bench --json` printed" : why));
+    print_error(fmt::format("cannot read {}: {}", path, text ? "it is not what `s7200 bench --json` printed" : text.why()));
     return {};
   }
   EarlierBench before{{}, json};
   for (const auto& figure : json["figures"]) {
     const auto speed = speed_of(figure);
     if (!speed) {
-      print_error(fmt::format("cannot read {}: '{}' is not a figure with a name and a rate above 0", path,
-                              shown(figure)));
+      print_error(fmt::format("cannot read {}: '{}' is not a figure with a name and a rate above 0", path, shown(figure)));
       return {};
     }
     before.speeds[figure["name"]] = *speed;

@@ -99,8 +99,8 @@ std::unique_ptr<MeasuringTarget> MeasuringTarget::open(const std::string& name, 
   if (!result->rig_) throw std::runtime_error(problems.empty() ? "interrupted" : problems.front());
   result->rig_->power_up();
   auto slave = std::make_unique<SimulatedSlave>(result->rig_->simulation(), serial::MasterSettings{}, program->source.name);
-  std::string why;
-  if (!slave->wait_until_ready(kNever, why)) throw std::runtime_error(why.empty() ? "the CPU went to STOP" : why);
+  if (const auto done = slave->wait_until_ready(kNever); !done)
+    throw std::runtime_error(done.why().empty() ? "the CPU went to STOP" : done.why());
   result->slave_ = std::move(slave);
   return result;
 }

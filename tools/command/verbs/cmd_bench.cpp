@@ -41,8 +41,7 @@ void print_line(const Figure& figure, const EarlierBench& before) {
 }
 
 std::optional<SourceText> read_bench_program(const std::string& path) {
-  std::string why;
-  return path.empty() ? read_source(kModbusSlave, "modbus_slave.stl", why) : read_program_text(path);
+  return path.empty() ? read_source(kModbusSlave, "modbus_slave.stl").if_any() : read_program_text(path);
 }
 
 void print_figures(const BenchOptions& options, const nlohmann::ordered_json& how, const std::vector<Figure>& figures,

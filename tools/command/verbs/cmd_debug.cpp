@@ -36,9 +36,8 @@ int run_debug(const CLI::App& verb, DebugOptions& options) {
       return print_error(fmt::format("{} is about a file of scenarios, and this is none", option)), kUnusable;
   int exit_code = kFine;
   if (!options.rig.load_all(verb, options.program, exit_code)) return exit_code;
-  std::string why;
-  const auto script = options.commands_file.empty() ? std::string() : read_file(options.commands_file, why);
-  if (!script) return print_error(fmt::format("cannot read {}: {}", options.commands_file, why)), kUnusable;
+  const auto script = options.commands_file.empty() ? std::string() : read_file(options.commands_file);
+  if (!script) return print_error(fmt::format("cannot read {}: {}", options.commands_file, script.why())), kUnusable;
   options.bridge.set_line(options.master);
   if (!options.bridge.prepare()) return kUnusable;
   auto bridges = bridges_of(options);
@@ -53,7 +52,7 @@ int run_debug(const CLI::App& verb, DebugOptions& options) {
   {
     std::atomic<bool> pause = false;
     DebuggeeRun live(*rig, options, std::move(*bridges), print_live_messages(), StopToken(pause));
-    if (!live.start(why)) return print_error(why), kUnusable;
+    if (const auto done = live.start(); !done) return print_error(done.why()), kUnusable;
     if (live.has_bridges()) print_note(kMastersWait);
     print_note_if_any(options.rig.note_on_first_station());
     const HostFiles files(rig->files());

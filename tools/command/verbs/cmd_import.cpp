@@ -32,11 +32,11 @@ void print_json(const ImportOptions& options, const SourceText& text, const std:
 }
 
 int run_compare(const ImportOptions& options) {
-  std::string name, why;
+  std::string name;
   const auto bytes = read_input(options.document, name);
   if (!bytes) return kUnusable;
-  const auto comparison = compare_drawings(*bytes, name, why);
-  if (!comparison) return print_error(fmt::format("cannot read {}: {}", name, why)), kUnusable;
+  const auto comparison = compare_drawings(*bytes, name);
+  if (!comparison) return print_error(fmt::format("cannot read {}: {}", name, comparison.why())), kUnusable;
   if (options.json) {
     auto results = results_of("import");
     results["document"] = options.document;

@@ -61,9 +61,8 @@ int run_inspect(const InspectOptions& options) {
     auto inspection = inspected(options.cpu, file, {*request.view, request.about}, tables, waiter, exit_code);
     if (!inspection) continue;
     inspection->ascii = options.ascii;
-    std::string why;
-    const auto stated = stated_loops(*inspection->program, request.view->name, options.loops, why);
-    if (!stated) return print_error(why), kUnusable;
+    const auto stated = stated_loops(*inspection->program, request.view->name, options.loops);
+    if (!stated) return print_error(stated.why()), kUnusable;
     inspection->stated_loops = *stated;
     if (picture) exit_code = std::max(exit_code, picture.write(*request.view, *inspection));
     if (options.json) {
@@ -93,8 +92,10 @@ void add_inspect(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("inspect", "what is in a program that nobody knows: who uses what, and where");
   std::vector<std::string> names;
   for (const InspectView& view : inspect_views()) names.emplace_back(view.name);
-  const auto words = fmt::format("STL files or published documents, with symbol tables and data blocks, then a view: {}; then "
-                                 "addresses, symbols, routines (SBR_3) or networks (SBR_3:2) to keep to", view_names());
+  const auto words = fmt::format(
+      "STL files or published documents, with symbol tables and data blocks, then a view: {}; then "
+      "addresses, symbols, routines (SBR_3) or networks (SBR_3:2) to keep to",
+      view_names());
   offer_beside_files(verb->add_option("PROGRAM", options->words, words), names)->required();
   options->cpu.add_cpu_and_times_to(*verb, fmt::format("CPU that they are to run on {}", kCpuFound));
   add_repair_option(*verb, options->cpu.repairs);

@@ -52,8 +52,7 @@ Ending run_to_end(RecordedRig& rig, const RunBridges& bridges, bool serves, Unan
                                    rig.flush_records();
                                    if (unanswered) unanswered->look();
                                  }});
-  std::string why;
-  if (!live->start(why)) return print_error(why), Ending{};
+  if (const auto done = live->start(); !done) return print_error(done.why()), Ending{};
   const std::string_view reason = run_with_clock(*live, rig, limits, to_ppi);
   if (!live->failure().empty()) print_error(live->failure());
   if (bridges.joined && (reason == "stop" || reason == "fatal"))

@@ -23,9 +23,8 @@ int run_send(const CLI::App& verb, SendOptions& options) {
   int exit_code = kFine;
   if (!options.rig.load(verb, options.program, exit_code)) return exit_code;
   options.master = options.rig.on_line(options.master);
-  std::string why;
-  const auto frames = options.frames.read(why);
-  if (!frames) return print_error(why), kUnusable;
+  const auto frames = options.frames.read();
+  if (!frames) return print_error(frames.why()), kUnusable;
   if (!options.report.prepare_for(options.rig.plan())) return kUnusable;
   const auto rig = options.rig.assemble(options.json);
   if (!rig) return options.rig.exit_code_without_rig();

@@ -24,7 +24,7 @@ bool write_transcript(const Destination& to, const TestOptions& options, const S
   const Time tolerance = tolerance_for(options.tolerance, result.live);
   const std::string text = transcript_text(result.reports, {options.record, result.tested, tolerance, result.live});
   const std::string why = why_not_recorded(result.reports, text.size());
-  if (why.empty()) return write_result(to, text);
+  if (why.empty()) return write_wanted(to, text);
   print_error(fmt::format("cannot write {}: {}", options.record, why));
   return interrupted();
 }

@@ -40,11 +40,9 @@ int run_view(const CLI::App& verb, const ViewOptions& options) {
   if (token.empty()) return kUnusable;
   if (!is_address_word(token))
     return print_error("--token-file: this token is a part of an address: letters, digits, - and _ only"), kUnusable;
-  std::string why;
-  const auto address = parse_listen_address(options.listen, why);
-  auto listener = address ? TcpListener::open(*address, why) : nullptr;
-  if (!listener) return print_error(fmt::format("--listen {}: {}", options.listen, why)), kUnusable;
-  page::PageServer server{.listener = std::move(listener), .token = token, .ready = print_address, .note = print_note};
+  auto listener = parse_listen_address(options.listen).and_then(TcpListener::open);
+  if (!listener) return print_error(fmt::format("--listen {}: {}", options.listen, listener.why())), kUnusable;
+  page::PageServer server{.listener = *std::move(listener), .token = token, .ready = print_address, .note = print_note};
   page::PageFlags flags;
   int exit_code = kFine;
   if (is_scenario_file(options.debuggee->program.path))

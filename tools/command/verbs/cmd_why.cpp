@@ -56,14 +56,13 @@ int run_why(const WhyOptions& options) {
   TablesByCpu tables(options.cpu);
   const auto program = known_program(options.cpu, programs.front(), tables, exit_code);
   if (!program || exit_code != kFine) return exit_code;
-  std::string why;
-  const auto wish = parse_wish(question.about, *program, why);
-  if (!wish) return print_error(why), kUnusable;
+  const auto wish = parse_wish(question.about, *program);
+  if (!wish) return print_error(wish.why()), kUnusable;
   const auto simulation = pictured(program, options.memory, options.set);
   if (!simulation) return kUnusable;
   const Cpu& cpu = simulation->cpu();
-  const auto holds = holds_now(*wish, cpu, why);
-  if (!holds) return print_error(fmt::format("{}: {}", stl::printable(question.about), why)), kUnusable;
+  const auto holds = holds_now(*wish, cpu);
+  if (!holds) return print_error(fmt::format("{}: {}", stl::printable(question.about), holds.why())), kUnusable;
   const bool nothing_to_say = question.not_so && *holds;
   const Obstacle answer = question.not_so ? why_not(cpu, *wish) : what_keeps(cpu, *wish);
   const auto further = [&](const Obstacle& node, bool is_root) { return further_question(question, node, is_root); };

@@ -2,19 +2,20 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/base/result.hpp"
+
 namespace s7200::tools {
 
 /// The console of Windows edits lines for itself, and would write over a view above them.
-bool Screen::switch_on(std::string& why) {
-  why = fmt::format("{} is not for the console of Windows; s7200 view PROGRAM shows the same in the browser", plan_.name);
-  return false;
+Result<> Screen::switch_on() {
+  return trouble("{} is not for the console of Windows; s7200 view PROGRAM shows the same in the browser", plan_.name);
 }
 
 void Screen::switch_off() {}
 
-bool Screen::measure(std::string&) { return false; }
+Result<> Screen::measure() { return Trouble{}; }
 
-bool Screen::fit(std::string&) { return false; }
+Result<> Screen::fit() { return Trouble{}; }
 
 void Screen::draw(const std::vector<std::string>&) {}
 

@@ -95,8 +95,7 @@ Prompt::Error Prompt::execute_one(std::string_view text) {
   const Reply reply = tools::execute(session_, words);
   hide_progress();
   out_ << reply.text;
-  std::string ignored;
-  const CommandRow* const command = find_command(words.front(), ignored);
+  const auto command = find_command(words.front());
   repeatable_ = command && command->repeats ? session_.command : "";
   if (typed_) carry_out_asked();  // the run has ended meanwhile
   return reply.error;

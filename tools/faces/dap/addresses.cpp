@@ -75,8 +75,7 @@ std::optional<MemoryPlace> find_memory(std::string_view reference, const Program
   }
   if (const auto area = area_named(stl::upper_case(reference)); area && model.size_of(*area) != 0)
     return place_in(info(*area), info(*area).base, model);
-  std::string why;
-  const auto range = parse_range(reference, program, why);
+  const auto range = parse_range(reference, program);
   return range ? std::optional(place_in(info(range->area), range->at, model)) : std::nullopt;
 }
 

@@ -28,7 +28,7 @@ Replace replace_of(Replacing replacing) {
 
 }  // namespace
 
-std::optional<std::string> HostFiles::read(const std::string& path, std::string& why) const { return read_file(path, why); }
+Result<std::string> HostFiles::read(const std::string& path) const { return read_file(path); }
 
 bool HostFiles::begins(const std::string& path, std::string_view beginning) const {
   std::string first(beginning.size(), '\0');
@@ -36,14 +36,12 @@ bool HostFiles::begins(const std::string& path, std::string_view beginning) cons
   return first == beginning;
 }
 
-std::optional<FilePlace> HostFiles::place_for(const WantedFile& wanted, std::string& why) const {
+Result<FilePlace> HostFiles::place_for(const WantedFile& wanted) const {
   WrittenFiles files = taken_;
-  const auto to =
-      files.claim(wanted.command, wanted.path, {wanted.what, wanted.beginning}, replace_of(wanted.replacing), why);
-  if (!to) return {};
-  if (to->stream) return why = fmt::format("{} is not a file", wanted.path), std::nullopt;
-  return FilePlace{to->path,
-                   [to = *to](std::string_view text, std::string& why_not) { return write_result(to, text, why_not); }};
+  const auto to = files.claim(wanted.command, wanted.path, {wanted.what, wanted.beginning}, replace_of(wanted.replacing));
+  if (!to) return to.trouble();
+  if (to->stream) return trouble("{} is not a file", wanted.path);
+  return FilePlace{to->path, [to = *to](std::string_view text) { return write_result(to, text); }};
 }
 
 std::vector<std::string> HostFiles::names(std::string_view beginning) const {

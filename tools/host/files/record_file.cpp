@@ -92,29 +92,29 @@ class RecordFile::Buffer final : public std::streambuf {
 RecordFile::RecordFile() = default;
 RecordFile::~RecordFile() = default;
 
-bool RecordFile::claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind,
-                       std::string& why) {
+Result<> RecordFile::claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind) {
   destination_.path = path;
   if (path == "-") {
     standard_output_ = files.standard_output();
-    if (!standard_output_) why = fmt::format("{} -: there is no standard output to write to", option);
-    return standard_output_ != nullptr;
+    if (!standard_output_) return trouble("{} -: there is no standard output to write to", option);
+    return {};
   }
   kind.record = true;
   limit_ = files.record_limit();
-  auto claimed = files.claim(option, path, std::move(kind), Replace::Own, why);
-  if (claimed) destination_ = std::move(*claimed);
-  return claimed.has_value();
+  auto claimed = files.claim(option, path, std::move(kind), Replace::Own);
+  if (!claimed) return claimed.trouble();
+  destination_ = *std::move(claimed);
+  return {};
 }
 
 /// A pipe without a reader that Ctrl-C ends is not a mistake: there is nothing to say but that it was interrupted.
-bool RecordFile::check(int error, std::string& why) const {
-  if (error != 0) why = error == EINTR ? "" : fmt::format("cannot write {}: {}", destination_.path, error_text(error));
-  return error == 0;
+Result<> RecordFile::check(int error) const {
+  if (error == 0) return {};
+  return error == EINTR ? Trouble{} : trouble("cannot write {}: {}", destination_.path, error_text(error));
 }
 
-std::ostream* RecordFile::open(std::string& why) {
-  if (standard_output_) return standard_output_;
+Result<std::ostream&> RecordFile::open() {
+  if (standard_output_) return *standard_output_;
   int error = 0;
   if (!destination_.stream)
     error = file_.create(destination_);
@@ -122,17 +122,17 @@ std::ostream* RecordFile::open(std::string& why) {
     file_.take(fd);
   else
     error = errno;
-  if (!check(error, why)) return nullptr;
+  if (const auto done = check(error); !done) return done.trouble();
   buffer_ = std::make_unique<Buffer>(file_.fd(), destination_.stream ? kUnlimited : limit_);
   stream_ = std::make_unique<std::ostream>(buffer_.get());
-  return stream_.get();
+  return *stream_;
 }
 
-bool RecordFile::put(std::string& why) {
-  if (!buffer_) return true;
+Result<> RecordFile::put() {
+  if (!buffer_) return {};
   stream_->flush();
-  if (!check(buffer_->error(), why)) return false;
-  return destination_.stream || check(file_.put(destination_), why);
+  if (const auto done = check(buffer_->error()); !done) return done.trouble();
+  return destination_.stream ? Result<>() : check(file_.put(destination_));
 }
 
 void RecordFile::flush() {
@@ -144,20 +144,19 @@ std::optional<RecordSize> RecordFile::size() const {
   return RecordSize{destination_.path, buffer_->size(), limit_, buffer_->full()};
 }
 
-bool RecordFile::close(std::string& why) {
-  if (!buffer_) return true;
+Result<> RecordFile::close() {
+  if (!buffer_) return {};
   stream_->flush();
   int error = buffer_->error();
   const bool full = buffer_->full();
   stream_.reset();
   buffer_.reset();
   if (const int at_close = file_.close(); error == 0) error = at_close;
-  if (error != 0)
-    why = fmt::format("cannot write all of {}: {}", destination_.path, error_text(error));
-  else if (full)
-    why = fmt::format("{} has reached {} and ends there; --record-limit lets records grow further",
-                      stl::printable(destination_.path), size_text(static_cast<double>(limit_)));
-  return error == 0 && !full;
+  if (error != 0) return trouble("cannot write all of {}: {}", destination_.path, error_text(error));
+  if (full)
+    return trouble("{} has reached {} and ends there; --record-limit lets records grow further",
+                   stl::printable(destination_.path), size_text(static_cast<double>(limit_)));
+  return {};
 }
 
 }  // namespace s7200::tools

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "interpreter/base/result.hpp"
 #include "tools/host/files/written_files.hpp"
 
 namespace s7200::tools {
@@ -31,15 +32,15 @@ class RecordFile {
   RecordFile();
   ~RecordFile();
 
-  /// Returns false and sets `why` if `option` cannot write there; - is standard output, if
+  /// Trouble if `option` cannot write there; - is standard output, if
   /// `files` has one. The others say likewise what failed.
-  bool claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind, std::string& why);
+  Result<> claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind);
 
-  /// Opens the file. Returns null if it fails, with an empty `why` if it was interrupted. Waits until a pipe has a reader.
-  std::ostream* open(std::string& why);
+  /// Opens the file. Trouble if it fails, with nothing to say if it was interrupted. Waits until a pipe has a reader.
+  Result<std::ostream&> open();
 
   /// Puts the file in its place: its first line has been written.
-  bool put(std::string& why);
+  Result<> put();
 
   /// Writes what is recorded so far, for whoever follows the file. What cannot be written close() tells.
   void flush();
@@ -47,12 +48,12 @@ class RecordFile {
   /// Nothing for a pipe, a device or standard output, and for what is not open.
   std::optional<RecordSize> size() const;
 
-  /// Closes the file. Returns false if not everything could be written, because it has reached its limit too.
-  bool close(std::string& why);
+  /// Closes the file. Trouble if not everything could be written, because it has reached its limit too.
+  Result<> close();
 
  private:
   class Buffer;
-  bool check(int error, std::string& why) const;
+  Result<> check(int error) const;
 
   Destination destination_;
   std::ostream* standard_output_ = nullptr;  ///< not null: that is where it goes

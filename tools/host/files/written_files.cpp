@@ -68,12 +68,8 @@ void WrittenFiles::links(std::string_view option, const std::string& path) {
   if (!path.empty()) places_.push_back(place_of(std::string(option), path));
 }
 
-std::optional<Destination> WrittenFiles::claim(std::string_view option, const std::string& path, FileKind kind,
-                                               Replace replace, std::string& why) {
-  const auto refuse = [&why](std::string message) {
-    why = std::move(message);
-    return std::nullopt;
-  };
+Result<Destination> WrittenFiles::claim(std::string_view option, const std::string& path, FileKind kind, Replace replace) {
+  const auto refuse = [](std::string message) { return Trouble{std::move(message)}; };
   if (const std::string reason = why_not_to_be_written(path); !reason.empty())
     return refuse(fmt::format("cannot write {}: {}", path, reason));
   Destination destination{.path = path, .kind = std::move(kind)};
@@ -140,34 +136,32 @@ int NewFile::close() {
   return error;
 }
 
-bool GrowingResult::check(int error, std::string& why) const {
-  if (error != 0) why = fmt::format("cannot write {}: {}", destination_.path, error_text(error));
-  return error == 0;
+Result<> GrowingResult::check(int error) const {
+  if (error != 0) return trouble("cannot write {}: {}", destination_.path, error_text(error));
+  return {};
 }
 
-bool GrowingResult::begin(const Destination& destination, std::string& why) {
+Result<> GrowingResult::begin(const Destination& destination) {
   destination_ = destination;
-  return check(file_.create(destination_), why);
+  return check(file_.create(destination_));
 }
 
-bool GrowingResult::add(std::string_view text, std::string& why) { return check(write_all(file_.fd(), text), why); }
+Result<> GrowingResult::add(std::string_view text) { return check(write_all(file_.fd(), text)); }
 
-bool GrowingResult::complete(std::string& why) {
+Result<> GrowingResult::complete() {
   int error = file_system::write_through(file_.fd());
   if (error == 0) error = file_.close();
   if (error == 0) error = file_.put(destination_);
-  if (!check(error, why)) {
-    if (error == EBUSY) why += fmt::format("; what was to be there is in {}", file_.keep());
-    return false;
-  }
+  if (const auto done = check(error); !done)
+    return error == EBUSY ? trouble("{}; what was to be there is in {}", done.why(), file_.keep()) : done.trouble();
   // The new name itself on the disk as well; the content is safe already.
   file_system::write_names_through(folder_of(destination_.path));
-  return true;
+  return {};
 }
 
-bool write_result(const Destination& destination, std::string_view text, std::string& why) {
+Result<> write_result(const Destination& destination, std::string_view text) {
   GrowingResult result;
-  return result.begin(destination, why) && result.add(text, why) && result.complete(why);
+  return result.begin(destination).and_then([&] { return result.add(text); }).and_then([&] { return result.complete(); });
 }
 
 }  // namespace s7200::tools

@@ -24,6 +24,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "tools/host/files/file_system.hpp"
 
 namespace s7200::tools {
@@ -79,9 +80,8 @@ class WrittenFiles {
   /// Notes that `option` makes a link of this name.
   void links(std::string_view option, const std::string& path);
 
-  /// Returns nothing and sets `why` if `option` cannot write there.
-  std::optional<Destination> claim(std::string_view option, const std::string& path, FileKind kind, Replace replace,
-                                   std::string& why);
+  /// Trouble if `option` cannot write there.
+  Result<Destination> claim(std::string_view option, const std::string& path, FileKind kind, Replace replace);
 
  private:
   struct Place {
@@ -124,23 +124,23 @@ class NewFile {
   int fd_ = -1;
 };
 
-/// A result that is written piece by piece. Each returns false and sets `why` if it fails; a result that is not completed
+/// A result that is written piece by piece. Each brings trouble if it fails; a result that is not completed
 /// leaves what was there before as it was. One that is complete, and whose place another program holds open, which only
-/// Windows lets it do, stays beside it, and `why` has its name.
+/// Windows lets it do, stays beside it, and the trouble has its name.
 class GrowingResult {
  public:
-  bool begin(const Destination& destination, std::string& why);
-  bool add(std::string_view text, std::string& why);
-  bool complete(std::string& why);
+  Result<> begin(const Destination& destination);
+  Result<> add(std::string_view text);
+  Result<> complete();
 
  private:
-  bool check(int error, std::string& why) const;
+  Result<> check(int error) const;
 
   Destination destination_;
   NewFile file_;
 };
 
-/// Writes a result. Returns false and sets `why` if that fails; what was there before is as it was.
-bool write_result(const Destination& destination, std::string_view text, std::string& why);
+/// Writes a result. Trouble if that fails; what was there before is as it was.
+Result<> write_result(const Destination& destination, std::string_view text);
 
 }  // namespace s7200::tools

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/stop_token.hpp"
 
 namespace s7200::tools {
@@ -40,13 +41,13 @@ Peer look_at_peer(NativeSocket socket);
 /// its end is open, or not on this computer, or the system does not tell, as Windows does not.
 std::optional<std::size_t> left_behind(NativeSocket socket);
 
-/// A connection to a server. What fails is said in `why`, as after "cannot reach 127.0.0.1:502: " or "127.0.0.1:502 ".
+/// A connection to a server. What fails is said as after "cannot reach 127.0.0.1:502: " or "127.0.0.1:502 ".
 class TcpConnection {
  public:
-  /// Tries each address of a host, by name or number, for as long as `patience`. Null with `why` set if none answers; with
-  /// an empty `why` after a stop.
-  static std::unique_ptr<TcpConnection> open(const std::string& host, const std::string& port,
-                                             std::chrono::nanoseconds patience, StopToken stop, std::string& why);
+  /// Tries each address of a host, by name or number, for as long as `patience`. Trouble if none answers, with nothing
+  /// to say after a stop.
+  static Result<std::unique_ptr<TcpConnection>> open(const std::string& host, const std::string& port,
+                                                     std::chrono::nanoseconds patience, StopToken stop);
   ~TcpConnection();
   TcpConnection(const TcpConnection&) = delete;
   TcpConnection& operator=(const TcpConnection&) = delete;
@@ -55,10 +56,10 @@ class TcpConnection {
   bool wait_for_input(std::chrono::nanoseconds at_most) const;
   bool wait_for_room(std::chrono::nanoseconds at_most) const;
 
-  /// Never wait. The number of bytes, 0 if there are none, or there is no room, just now; nothing with `why` set when the
-  /// connection is over.
-  std::optional<std::size_t> read(std::span<std::uint8_t> into, std::string& why);
-  std::optional<std::size_t> write(std::span<const std::uint8_t> bytes, std::string& why);
+  /// Never wait. The number of bytes, 0 if there are none, or there is no room, just now; trouble when the connection is
+  /// over.
+  Result<std::size_t> read(std::span<std::uint8_t> into);
+  Result<std::size_t> write(std::span<const std::uint8_t> bytes);
 
  private:
   explicit TcpConnection(NativeSocket socket) : socket_(socket) {}

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "interpreter/base/listen_address.hpp"
+#include "interpreter/base/result.hpp"
 #include "tools/host/files/input_stream.hpp"
 #include "tools/host/net/sockets.hpp"
 
@@ -31,8 +32,8 @@ class TcpClient final : public InputStream {
 
 class TcpListener {
  public:
-  /// Listens at an address. Returns null and sets `why` if that fails, or the address is not one of this computer alone.
-  static std::unique_ptr<TcpListener> open(const ListenAddress& address, std::string& why);
+  /// Listens at an address. Trouble if that fails, or the address is not one of this computer alone.
+  static Result<std::unique_ptr<TcpListener>> open(const ListenAddress& address);
   ~TcpListener();
   TcpListener(const TcpListener&) = delete;
   TcpListener& operator=(const TcpListener&) = delete;
@@ -43,8 +44,8 @@ class TcpListener {
   /// Gives the port away to one that will close it; accept() is not called any more.
   NativeSocket release() { return std::exchange(socket_, kNoSocket); }
 
-  /// The next client. Null after an interruption, or for `why`.
-  std::unique_ptr<TcpClient> accept(std::string& why);
+  /// The next client. Trouble with nothing to say after an interruption.
+  Result<std::unique_ptr<TcpClient>> accept();
 
  private:
   TcpListener(NativeSocket socket, ListenAddress address) : socket_(socket), address_(std::move(address)) {}

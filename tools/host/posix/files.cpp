@@ -11,6 +11,8 @@
 #include <cstring>
 #include <span>
 
+#include "interpreter/base/result.hpp"
+
 namespace s7200::tools {
 namespace {
 
@@ -27,15 +29,11 @@ struct OpenFile {
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
 
-  bool can_be_read(std::string& why) const {
+  Result<> can_be_read() const {
     struct stat status {};
-    if (fd < 0 || fstat(fd, &status) != 0) {
-      why = std::strerror(errno);
-      return false;
-    }
-    if (S_ISREG(status.st_mode) || S_ISFIFO(status.st_mode)) return true;
-    why = S_ISDIR(status.st_mode) ? "it is a folder" : "it is a device, not a file";
-    return false;
+    if (fd < 0 || fstat(fd, &status) != 0) return Trouble{std::strerror(errno)};
+    if (S_ISREG(status.st_mode) || S_ISFIFO(status.st_mode)) return {};
+    return Trouble{S_ISDIR(status.st_mode) ? "it is a folder" : "it is a device, not a file"};
   }
 
   const int fd;
@@ -48,41 +46,35 @@ ssize_t read_some(int fd, std::span<char> piece) {
   return poll(&written, 1, -1) < 0 ? -1 : read(fd, piece.data(), piece.size());
 }
 
-std::optional<std::string> read_all(int fd, std::string& why) {
+Result<std::string> read_all(int fd) {
   std::string bytes;
   std::array<char, 65536> piece{};
   for (;;) {
     const ssize_t count = read_some(fd, piece);
     if (count == 0) return bytes;
-    if (count < 0) {
-      why = std::strerror(errno);
-      return {};
-    }
+    if (count < 0) return Trouble{std::strerror(errno)};
     bytes.append(piece.data(), static_cast<std::size_t>(count));
-    if (bytes.size() > kLargestFile) {
-      why = fmt::format("it is larger than {} MB", kLargestFile >> 20);
-      return {};
-    }
+    if (bytes.size() > kLargestFile) return trouble("it is larger than {} MB", kLargestFile >> 20);
   }
 }
 
 class HostFiles final : public FileSource {
  public:
-  std::optional<std::string> read(const std::string& path, std::string& why) const override { return read_file(path, why); }
+  Result<std::string> read(const std::string& path) const override { return read_file(path); }
   bool exists(const std::string& path) const override { return access(path.c_str(), F_OK) == 0; }
 };
 
 }  // namespace
 
-std::optional<std::string> read_file(const std::string& path, std::string& why) {
+Result<std::string> read_file(const std::string& path) {
   const OpenFile file(path);
-  if (!file.can_be_read(why)) return {};
-  return read_all(file.fd, why);
+  if (const auto done = file.can_be_read(); !done) return done.trouble();
+  return read_all(file.fd);
 }
 
-std::optional<std::string> read_text(const std::string& path, std::string& why) { return host_files().read_text(path, why); }
+Result<std::string> read_text(const std::string& path) { return host_files().read_text(path); }
 
-std::optional<std::string> read_standard_input(std::string& why) { return read_all(STDIN_FILENO, why); }
+Result<std::string> read_standard_input() { return read_all(STDIN_FILENO); }
 
 const FileSource& host_files() {
   static const HostFiles kFiles;

@@ -66,7 +66,7 @@ Pty::Port::~Port() {
 
 /// The far side stays open here too, so that the near one never hangs up. Who else opens it is told by inotify, which
 /// watches before anyone can.
-bool Pty::Port::open(int watch, std::string& why) {
+Result<> Pty::Port::open(int watch) {
   std::array<char, 64> name{};
   fd_ = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   bool done = fd_ >= 0 && grantpt(fd_) == 0 && ptsname_r(fd_, name.data(), name.size()) == 0 && unlockpt(fd_) == 0;
@@ -76,8 +76,8 @@ bool Pty::Port::open(int watch, std::string& why) {
     far_watch_ = inotify_add_watch(watch, path_.c_str(), IN_OPEN | IN_CLOSE);
     done = far_ >= 0 && far_watch_ >= 0;
   }
-  if (!done) why = fmt::format("cannot open a pty: {}", std::strerror(errno));
-  return done;
+  if (!done) return trouble("cannot open a pty: {}", std::strerror(errno));
+  return {};
 }
 
 PtySettings Pty::Port::settings() const {
@@ -132,23 +132,21 @@ Pty::Pty() : settings_(std::make_unique<Settings>()), offered_with_(std::make_un
 
 /// The queue of inotify merges an event with an equal one right before it (inotify(7)), and so would lose count of who opens
 /// a port twice; with the folder watched too, an event of the folder stands between each two of a port.
-std::unique_ptr<Pty> Pty::open(const std::string& link, const SerialFormat& format, std::string& why) {
+Result<std::unique_ptr<Pty>> Pty::open(const std::string& link, const SerialFormat& format) {
   std::unique_ptr<Pty> pty(new Pty);
   pty->watch_ = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
   pty->end_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
   for (std::size_t i = 0; i < kPorts; ++i)
-    if (!pty->add_port(why)) return nullptr;
+    if (const auto done = pty->add_port(); !done) return done.trouble();
   const fs::path folder = fs::path(pty->ports_[0]->path_).parent_path();
   termios2& settings = pty->settings_->value;
   if (inotify_add_watch(pty->watch_, folder.c_str(), IN_OPEN | IN_CLOSE) < 0 ||
-      !read_settings(pty->ports_[0]->far_, settings)) {
-    why = fmt::format("cannot open a pty: {}", std::strerror(errno));
-    return nullptr;
-  }
+      !read_settings(pty->ports_[0]->far_, settings))
+    return trouble("cannot open a pty: {}", std::strerror(errno));
   make_raw(settings);
   put_format(settings, format);
   pty->make_ready(*pty->ports_[0]);
-  if (!pty->make_link(link, why)) return nullptr;
+  if (const auto done = pty->make_link(link); !done) return done.trouble();
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);  // signals are for the other threads
@@ -173,11 +171,11 @@ void Pty::keep_offering() {
   while (poll(waiting.data(), waiting.size(), -1) >= 0 && waiting[1].revents == 0) look();
 }
 
-bool Pty::add_port(std::string& why) {
+Result<> Pty::add_port() {
   std::unique_ptr<Port> port(new Port);
-  if (!port->open(watch_, why)) return false;
+  if (const auto done = port->open(watch_); !done) return done.trouble();
   ports_.push_back(std::move(port));
-  return true;
+  return {};
 }
 
 bool Pty::leads_to_us(const std::string& link) const {
@@ -205,23 +203,20 @@ void Pty::make_ready(const Port& port) {
   write_settings(port.far_, settings);
 }
 
-bool Pty::make_link(const std::string& link, std::string& why) {
+Result<> Pty::make_link(const std::string& link) {
   std::error_code error;
   const fs::file_status found = fs::symlink_status(link, error);
   if (is_left_behind(link)) {
     fs::remove(link, error);
   } else if (fs::exists(found)) {
-    why = fs::is_symlink(found)
-              ? fmt::format("{} exists and leads to {}; it is left alone", link, fs::read_symlink(link, error).string())
-              : fmt::format("{} exists and is not a link; it is left alone", link);
-    return false;
+    return Trouble{fs::is_symlink(found) ? fmt::format("{} exists and leads to {}; it is left alone", link,
+                                                       fs::read_symlink(link, error).string())
+                                         : fmt::format("{} exists and is not a link; it is left alone", link)};
   }
-  if (symlink(marked(ports_[offered_]->path_).c_str(), link.c_str()) != 0) {
-    why = fmt::format("cannot make the link {}: {}", link, std::strerror(errno));
-    return false;
-  }
+  if (symlink(marked(ports_[offered_]->path_).c_str(), link.c_str()) != 0)
+    return trouble("cannot make the link {}: {}", link, std::strerror(errno));
   link_ = fs::absolute(link, error).string();
-  return true;
+  return {};
 }
 
 std::size_t Pty::port_count() const {
@@ -296,8 +291,7 @@ std::size_t Pty::free_port() {
     const std::size_t index = (offered_ + step) % ports_.size();
     if (ports_[index]->open_now_ == 0 && ports_[index]->unread() == 0) return index;
   }
-  std::string ignored;
-  return ports_.size() < kMostPorts && add_port(ignored) ? ports_.size() - 1 : offered_;
+  return ports_.size() < kMostPorts && add_port() ? ports_.size() - 1 : offered_;
 }
 
 /// A link that belongs to another process by now stays, and so does ours if there is no other port: then it is shared.

@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/serial_format.hpp"
 
 namespace s7200::tools {
@@ -59,7 +60,7 @@ class Pty {
    private:
     friend class Pty;
     Port() = default;
-    bool open(int watch, std::string& why);
+    Result<> open(int watch);
     PtySettings settings_now() const;
     void all_have_left();
     void keep_changeable();
@@ -74,10 +75,10 @@ class Pty {
   };
 
   /// Opens ptys, raw and with the settings of `format` until a program changes them. `link` becomes a symbolic link to a far
-  /// side. Nothing, and `why`, when that cannot be done: whatever exists under that name is left alone, but a link that a
+  /// side. Trouble when that cannot be done: whatever exists under that name is left alone, but a link that a
   /// run like this one made and, because it was killed, did not remove. Our links are known by how they spell their target:
   /// `/dev/pts/./3`.
-  static std::unique_ptr<Pty> open(const std::string& link, const SerialFormat& format, std::string& why);
+  static Result<std::unique_ptr<Pty>> open(const std::string& link, const SerialFormat& format);
 
   /// Removes the link if it still is ours.
   ~Pty();
@@ -103,8 +104,8 @@ class Pty {
   struct Settings;  // all of a port's
 
   Pty();
-  bool add_port(std::string& why);
-  bool make_link(const std::string& link, std::string& why);
+  Result<> add_port();
+  Result<> make_link(const std::string& link);
   bool leads_to_us(const std::string& link) const;
   bool is_left_behind(const std::string& link) const;
   void make_ready(const Port& port);

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "interpreter/base/result.hpp"
 #include "tools/host/posix/termios2.hpp"
 
 namespace s7200::tools {
@@ -84,37 +85,25 @@ SerialDevice::SerialDevice() = default;
 SerialDevice::SerialDevice(SerialDevice&& other) noexcept = default;
 SerialDevice::~SerialDevice() = default;
 
-std::optional<SerialDevice> SerialDevice::open(const std::string& path, const SerialFormat& format, std::string& why) {
+Result<SerialDevice> SerialDevice::open(const std::string& path, const SerialFormat& format) {
   SerialDevice device;
   device.system_ = std::make_unique<System>(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   const int fd = device.system_->fd;
-  if (fd < 0) {
-    why = errno == EBUSY ? "another program has it open" : error_text();
-    return {};
-  }
+  if (fd < 0) return Trouble{errno == EBUSY ? "another program has it open" : error_text()};
   termios2 found{};
-  if (!read_settings(fd, found)) {
-    why = "it is not a serial device";
-    return {};
-  }
-  if (flock(fd, LOCK_EX | LOCK_NB) != 0) {
-    why = "another program has locked it";
-    return {};
-  }
+  if (!read_settings(fd, found)) return Trouble{"it is not a serial device"};
+  if (flock(fd, LOCK_EX | LOCK_NB) != 0) return Trouble{"another program has locked it"};
   ioctl(fd, TIOCEXCL);
   device.system_->found = found;
-  if (!device.set(format, why)) return {};
+  if (const auto done = device.set(format); !done) return done.trouble();
   device.discard_input();
   return device;
 }
 
-bool SerialDevice::set(const SerialFormat& format, std::string& why) {
+Result<> SerialDevice::set(const SerialFormat& format) {
   const int fd = system_->fd;
   termios2 before{}, wanted{}, taken{};
-  if (!read_settings(fd, before)) {
-    why = error_text();
-    return false;
-  }
+  if (!read_settings(fd, before)) return Trouble{error_text()};
   wanted = before;
   make_raw(wanted);
   put_format(wanted, format);
@@ -122,30 +111,23 @@ bool SerialDevice::set(const SerialFormat& format, std::string& why) {
   // A pty shows that there is parity by this flag only; a device reports bad stop bits with it too.
   const bool checked = format.parity != Parity::None || !is_pty(fd);
   wanted.c_iflag = checked ? wanted.c_iflag | INPCK : wanted.c_iflag & ~tcflag_t{INPCK};
-  if (!write_settings(fd, wanted) || !read_settings(fd, taken)) {
-    why = error_text();
-    return false;
-  }
-  why = refusal(wanted, taken, is_pty(fd));
-  if (!why.empty()) {
+  if (!write_settings(fd, wanted) || !read_settings(fd, taken)) return Trouble{error_text()};
+  if (std::string why = refusal(wanted, taken, is_pty(fd)); !why.empty()) {
     write_settings(fd, before);
-    return false;
+    return Trouble{std::move(why)};
   }
   format_ = format;
-  return true;
+  return {};
 }
 
-bool SerialDevice::read(std::vector<Character>& characters, std::string& why) {
+Result<> SerialDevice::read(std::vector<Character>& characters) {
   std::array<std::uint8_t, kMostAtOnce> bytes{};
   ssize_t count = -1;
   do count = ::read(system_->fd, bytes.data(), bytes.size());
   while (count < 0 && errno == EINTR);
-  if (count == 0 || (count < 0 && errno != EAGAIN)) {
-    why = count == 0 ? "it was hung up" : error_text();
-    return false;
-  }
+  if (count == 0 || (count < 0 && errno != EAGAIN)) return Trouble{count == 0 ? "it was hung up" : error_text()};
   for (ssize_t i = 0; i < count; ++i) system_->take(bytes[static_cast<std::size_t>(i)], characters);
-  return true;
+  return {};
 }
 
 void SerialDevice::System::take(std::uint8_t byte, std::vector<Character>& characters) {
@@ -180,14 +162,13 @@ bool SerialDevice::drive_dtr(bool high) {
 
 void SerialDevice::drain() { ioctl(system_->fd, TCSBRK, 1); }
 
-std::optional<std::size_t> SerialDevice::write(std::span<const std::uint8_t> bytes, std::string& why) {
+Result<std::size_t> SerialDevice::write(std::span<const std::uint8_t> bytes) {
   for (;;) {
     const ssize_t count = ::write(system_->fd, bytes.data(), bytes.size());
     if (count >= 0) return static_cast<std::size_t>(count);
     if (errno == EAGAIN) return 0;
     if (errno == EINTR) continue;
-    why = error_text();
-    return {};
+    return Trouble{error_text()};
   }
 }
 

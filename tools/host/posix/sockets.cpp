@@ -21,6 +21,7 @@
 #include <thread>
 #include <utility>
 
+#include "interpreter/base/result.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/host/net/server_rules.hpp"
 #include "tools/host/net/tcp_listener.hpp"
@@ -157,17 +158,14 @@ std::optional<std::size_t> left_behind(NativeSocket socket) {
 
 // --- a listener, and its clients ---
 
-std::unique_ptr<TcpListener> TcpListener::open(const ListenAddress& address, std::string& why) {
+Result<std::unique_ptr<TcpListener>> TcpListener::open(const ListenAddress& address) {
   SocketAddress where = socket_address(address);
-  if (!is_loopback(where)) {
-    why = kOnlyThisComputer;
-    return nullptr;
-  }
+  if (!is_loopback(where)) return Trouble{std::string(kOnlyThisComputer)};
   const int fd = socket(where.storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (fd < 0 || !allow_next_listener(fd) || bind(fd, where.get(), where.size) != 0 || listen(fd, kMostWaitingClients) != 0) {
-    why = std::strerror(errno);
+    Trouble refused{std::strerror(errno)};
     if (fd >= 0) close(fd);
-    return nullptr;
+    return refused;
   }
   ListenAddress bound = address;
   bound.port = port_of(fd);
@@ -178,7 +176,7 @@ TcpListener::~TcpListener() {
   if (socket_ != kNoSocket) close(descriptor_of(socket_));
 }
 
-std::unique_ptr<TcpClient> TcpListener::accept(std::string& why) {
+Result<std::unique_ptr<TcpClient>> TcpListener::accept() {
   while (!interrupted()) {
     const int client = accept4(descriptor_of(socket_), nullptr, nullptr, SOCK_CLOEXEC);
     if (client >= 0) {
@@ -190,10 +188,9 @@ std::unique_ptr<TcpClient> TcpListener::accept(std::string& why) {
       return std::make_unique<TcpClient>(client);
     }
     if (errno == EINTR || errno == ECONNABORTED) continue;
-    why = std::strerror(errno);
-    return nullptr;
+    return Trouble{std::strerror(errno)};
   }
-  return nullptr;
+  return std::nullopt;
 }
 
 TcpClient::~TcpClient() { close(descriptor_of(socket_)); }
@@ -218,9 +215,9 @@ namespace {
 
 using Addresses = std::shared_ptr<addrinfo>;
 
-/// The addresses of a host. Null with `why` set if there are none, and after a stop. Name servers may let getaddrinfo(3)
+/// The addresses of a host. Trouble if there are none, with nothing to say after a stop. Name servers may let getaddrinfo(3)
 /// wait for long, and nothing calls it off: it has a thread of its own, which is then left to itself.
-Addresses look_up(const std::string& host, const std::string& port, StopToken stop, std::string& why) {
+Result<Addresses> look_up(const std::string& host, const std::string& port, StopToken stop) {
   struct Answer {
     int error = 0;
     Addresses addresses;
@@ -235,9 +232,9 @@ Addresses look_up(const std::string& host, const std::string& port, StopToken st
     promise.set_value({error, error == 0 ? Addresses(found, freeaddrinfo) : nullptr});
   }).detach();
   while (answer.wait_for(kSlice) != std::future_status::ready)
-    if (stop.stop_requested()) return nullptr;
+    if (stop.stop_requested()) return std::nullopt;
   const Answer got = answer.get();
-  if (got.error != 0) why = gai_strerror(got.error);
+  if (got.error != 0) return Trouble{gai_strerror(got.error)};
   return got.addresses;
 }
 
@@ -261,11 +258,13 @@ int connect_to(int fd, const addrinfo& address, std::chrono::nanoseconds patienc
 
 }  // namespace
 
-std::unique_ptr<TcpConnection> TcpConnection::open(const std::string& host, const std::string& port,
-                                                   std::chrono::nanoseconds patience, StopToken stop, std::string& why) {
-  const Addresses addresses = look_up(host, port, stop, why);
+Result<std::unique_ptr<TcpConnection>> TcpConnection::open(const std::string& host, const std::string& port,
+                                                           std::chrono::nanoseconds patience, StopToken stop) {
+  const auto addresses = look_up(host, port, stop);
+  if (!addresses) return addresses.trouble();
   int error = 0;
-  for (const addrinfo* address = addresses.get(); address != nullptr && !stop.stop_requested(); address = address->ai_next) {
+  for (const addrinfo* address = addresses->get(); address != nullptr && !stop.stop_requested();
+       address = address->ai_next) {
     const int fd = socket(address->ai_family, address->ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, address->ai_protocol);
     error = fd < 0 ? errno : connect_to(fd, *address, patience, stop);
     if (fd < 0) continue;
@@ -276,8 +275,8 @@ std::unique_ptr<TcpConnection> TcpConnection::open(const std::string& host, cons
     }
     close(fd);
   }
-  if (why.empty() && !stop.stop_requested()) why = std::strerror(error);
-  return nullptr;
+  if (stop.stop_requested()) return std::nullopt;
+  return Trouble{std::strerror(error)};
 }
 
 TcpConnection::~TcpConnection() { close(descriptor_of(socket_)); }
@@ -286,20 +285,19 @@ bool TcpConnection::wait_for_input(std::chrono::nanoseconds at_most) const { ret
 
 bool TcpConnection::wait_for_room(std::chrono::nanoseconds at_most) const { return wait_for(socket_, POLLOUT, at_most); }
 
-std::optional<std::size_t> TcpConnection::read(std::span<std::uint8_t> into, std::string& why) {
+Result<std::size_t> TcpConnection::read(std::span<std::uint8_t> into) {
   const ssize_t count = recv(descriptor_of(socket_), into.data(), into.size(), 0);
   if (count > 0) return static_cast<std::size_t>(count);
   if (count < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
-  why = count == 0 ? "has closed the connection" : std::string("has broken the connection: ") + std::strerror(errno);
-  return {};
+  return Trouble{count == 0 ? "has closed the connection"
+                            : std::string("has broken the connection: ") + std::strerror(errno)};
 }
 
-std::optional<std::size_t> TcpConnection::write(std::span<const std::uint8_t> bytes, std::string& why) {
+Result<std::size_t> TcpConnection::write(std::span<const std::uint8_t> bytes) {
   const ssize_t count = ::send(descriptor_of(socket_), bytes.data(), bytes.size(), MSG_NOSIGNAL);
   if (count >= 0) return static_cast<std::size_t>(count);
   if (errno == EAGAIN || errno == EINTR) return 0;
-  why = std::string("has broken the connection: ") + std::strerror(errno);
-  return {};
+  return Trouble{std::string("has broken the connection: ") + std::strerror(errno)};
 }
 
 }  // namespace s7200::tools

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/host/windows/native_text.hpp"
 
@@ -175,48 +176,38 @@ SerialDevice::SerialDevice() = default;
 SerialDevice::SerialDevice(SerialDevice&& other) noexcept = default;
 SerialDevice::~SerialDevice() = default;
 
-std::optional<SerialDevice> SerialDevice::open(const std::string& path, const SerialFormat& format, std::string& why) {
+Result<SerialDevice> SerialDevice::open(const std::string& path, const SerialFormat& format) {
   const std::string port_name = port_named(path);
-  if (port_name.empty()) {
-    why = "it is not a COM port; " + ports_there_are();
-    return {};
-  }
+  if (port_name.empty()) return Trouble{"it is not a COM port; " + ports_there_are()};
   const std::string name = std::string(kDevices) + port_name;
   Handle port(CreateFileW(wide(name).c_str(), GENERIC_READ | GENERIC_WRITE, 0, nullptr, OPEN_EXISTING, FILE_FLAG_OVERLAPPED,
                           nullptr));
-  if (!port) {
-    why = why_not_opened(GetLastError());
-    return {};
-  }
+  if (!port) return Trouble{why_not_opened(GetLastError())};
   SerialDevice device;
   device.system_ = std::make_unique<System>(std::move(port));
   System& system = *device.system_;
   system.found.DCBlength = sizeof system.found;
   system.has_found = GetCommState(system.port.get(), &system.found) != 0;
-  if (!system.has_found) {
-    why = "it is not a serial port";
-    return {};
-  }
+  if (!system.has_found) return Trouble{"it is not a serial port"};
   COMMTIMEOUTS none{};  // a read waits for what it asks for, a write for nothing
   SetCommTimeouts(system.port.get(), &none);
-  if (!device.set(format, why)) return {};
+  if (const auto done = device.set(format); !done) return done.trouble();
   device.discard_input();
   system.start();
   return device;
 }
 
-bool SerialDevice::set(const SerialFormat& format, std::string& why) {
+Result<> SerialDevice::set(const SerialFormat& format) {
   DCB wanted = settings_of(format);
   if (SetCommState(system_->port.get(), &wanted) == 0) {
     const DWORD error = GetLastError();
-    why = error == ERROR_INVALID_PARAMETER
-              ? fmt::format("the device does not do {} baud with {} data bits, this parity and {} stop bits", format.baud,
-                            format.data_bits, format.stop_bits)
-              : words_of(error);
-    return false;
+    return Trouble{error == ERROR_INVALID_PARAMETER
+                       ? fmt::format("the device does not do {} baud with {} data bits, this parity and {} stop bits",
+                                     format.baud, format.data_bits, format.stop_bits)
+                       : words_of(error)};
   }
   format_ = format;
-  return true;
+  return {};
 }
 
 std::intptr_t SerialDevice::native() const { return reinterpret_cast<std::intptr_t>(system_->readable.get()); }
@@ -237,28 +228,26 @@ void SerialDevice::drain() {
   FlushFileBuffers(system_->port.get());
 }
 
-bool SerialDevice::read(std::vector<Character>& characters, std::string& why) {
+Result<> SerialDevice::read(std::vector<Character>& characters) {
   System& system = *system_;
   const std::lock_guard lock(system.mutex);
   const auto count = static_cast<std::ptrdiff_t>(std::min(system.come_in.size(), kMostAtOnce));
   characters.insert(characters.end(), system.come_in.begin(), system.come_in.begin() + count);
   system.come_in.erase(system.come_in.begin(), system.come_in.begin() + count);
   if (system.come_in.empty() && system.why_gone.empty()) ResetEvent(system.readable.get());
-  if (count > 0 || system.why_gone.empty()) return true;
-  why = system.why_gone;
-  return false;
+  if (count > 0 || system.why_gone.empty()) return {};
+  return Trouble{system.why_gone};
 }
 
-std::optional<std::size_t> SerialDevice::write(std::span<const std::uint8_t> bytes, std::string& why) {
+Result<std::size_t> SerialDevice::write(std::span<const std::uint8_t> bytes) {
   System& system = *system_;
   DWORD count = 0;
-  const auto fail = [&](DWORD error) {
-    why = error == ERROR_ACCESS_DENIED || error == ERROR_BAD_COMMAND ? "it was unplugged" : words_of(error);
-    return std::nullopt;
+  const auto fail = [](DWORD error) -> Result<std::size_t> {
+    return Trouble{error == ERROR_ACCESS_DENIED || error == ERROR_BAD_COMMAND ? "it was unplugged" : words_of(error)};
   };
   if (system.is_writing) {
     if (GetOverlappedResult(system.port.get(), &system.writing, &count, FALSE) == 0)
-      return GetLastError() == ERROR_IO_INCOMPLETE ? std::optional<std::size_t>(0) : fail(GetLastError());
+      return GetLastError() == ERROR_IO_INCOMPLETE ? Result<std::size_t>(0) : fail(GetLastError());
     system.is_writing = false;
   }
   if (bytes.empty()) return 0;

@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "interpreter/base/result.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/host/net/server_rules.hpp"
 #include "tools/host/net/tcp_listener.hpp"
@@ -111,13 +112,10 @@ std::optional<std::size_t> left_behind(NativeSocket) { return {}; }
 
 // --- a listener, and its clients ---
 
-std::unique_ptr<TcpListener> TcpListener::open(const ListenAddress& address, std::string& why) {
+Result<std::unique_ptr<TcpListener>> TcpListener::open(const ListenAddress& address) {
   start_sockets();
   SocketAddress where = socket_address(address);
-  if (!is_loopback(where)) {
-    why = kOnlyThisComputer;
-    return nullptr;
-  }
+  if (!is_loopback(where)) return Trouble{std::string(kOnlyThisComputer)};
   const SOCKET listening = WSASocketW(where.storage.ss_family, SOCK_STREAM, IPPROTO_TCP, nullptr, 0,
                                       WSA_FLAG_OVERLAPPED | WSA_FLAG_NO_HANDLE_INHERIT);
   SocketAddress bound;
@@ -125,9 +123,9 @@ std::unique_ptr<TcpListener> TcpListener::open(const ListenAddress& address, std
   if (listening == INVALID_SOCKET || !allow_next_listener(native(listening)) ||
       bind(listening, where.get(), where.size) != 0 || listen(listening, kMostWaitingClients) != 0 ||
       getsockname(listening, bound.get(), &bound.size) != 0) {
-    why = socket_error_text(WSAGetLastError());
+    Trouble refused{socket_error_text(WSAGetLastError())};
     if (listening != INVALID_SOCKET) closesocket(listening);
-    return nullptr;
+    return refused;
   }
   return std::unique_ptr<TcpListener>(new TcpListener(native(listening), {.host = address.host, .port = bound.port()}));
 }
@@ -136,7 +134,7 @@ TcpListener::~TcpListener() {
   if (socket_ != kNoSocket) closesocket(socket_of(socket_));
 }
 
-std::unique_ptr<TcpClient> TcpListener::accept(std::string& why) {
+Result<std::unique_ptr<TcpClient>> TcpListener::accept() {
   while (!interrupted()) {
     if (!wait_for(socket_, POLLRDNORM, kSlice)) continue;
     const SOCKET client = ::accept(socket_of(socket_), nullptr, nullptr);
@@ -147,10 +145,9 @@ std::unique_ptr<TcpClient> TcpListener::accept(std::string& why) {
       return std::make_unique<TcpClient>(native(client));
     }
     if (WSAGetLastError() == WSAECONNRESET) continue;
-    why = socket_error_text(WSAGetLastError());
-    return nullptr;
+    return Trouble{socket_error_text(WSAGetLastError())};
   }
-  return nullptr;
+  return std::nullopt;
 }
 
 TcpClient::~TcpClient() { closesocket(socket_of(socket_)); }
@@ -179,9 +176,9 @@ namespace {
 
 using Addresses = std::shared_ptr<ADDRINFOW>;
 
-/// The addresses of a host. Null with `why` set if there are none, and after a stop. Name servers may let the system wait
-/// for long, and nothing calls it off: it has a thread of its own, which is then left to itself.
-Addresses look_up(const std::string& host, const std::string& port, StopToken stop, std::string& why) {
+/// The addresses of a host. Trouble if there are none, with nothing to say after a stop. Name servers may let the system
+/// wait for long, and nothing calls it off: it has a thread of its own, which is then left to itself.
+Result<Addresses> look_up(const std::string& host, const std::string& port, StopToken stop) {
   struct Answer {
     int error = 0;
     Addresses addresses;
@@ -196,9 +193,9 @@ Addresses look_up(const std::string& host, const std::string& port, StopToken st
     promise.set_value({error, error == 0 ? Addresses(found, FreeAddrInfoW) : nullptr});
   }).detach();
   while (answer.wait_for(kSlice) != std::future_status::ready)
-    if (stop.stop_requested()) return nullptr;
+    if (stop.stop_requested()) return std::nullopt;
   const Answer got = answer.get();
-  if (got.error != 0) why = socket_error_text(got.error);
+  if (got.error != 0) return Trouble{socket_error_text(got.error)};
   return got.addresses;
 }
 
@@ -224,12 +221,13 @@ int connect_to(SOCKET socket, const ADDRINFOW& address, std::chrono::nanoseconds
 
 }  // namespace
 
-std::unique_ptr<TcpConnection> TcpConnection::open(const std::string& host, const std::string& port,
-                                                   std::chrono::nanoseconds patience, StopToken stop, std::string& why) {
+Result<std::unique_ptr<TcpConnection>> TcpConnection::open(const std::string& host, const std::string& port,
+                                                           std::chrono::nanoseconds patience, StopToken stop) {
   start_sockets();
-  const Addresses addresses = look_up(host, port, stop, why);
+  const auto addresses = look_up(host, port, stop);
+  if (!addresses) return addresses.trouble();
   int error = 0;
-  for (const ADDRINFOW* address = addresses.get(); address != nullptr && !stop.stop_requested();
+  for (const ADDRINFOW* address = addresses->get(); address != nullptr && !stop.stop_requested();
        address = address->ai_next) {
     const SOCKET socket = WSASocketW(address->ai_family, address->ai_socktype, address->ai_protocol, nullptr, 0,
                                      WSA_FLAG_OVERLAPPED | WSA_FLAG_NO_HANDLE_INHERIT);
@@ -245,8 +243,8 @@ std::unique_ptr<TcpConnection> TcpConnection::open(const std::string& host, cons
     }
     closesocket(socket);
   }
-  if (why.empty() && !stop.stop_requested()) why = socket_error_text(error);
-  return nullptr;
+  if (stop.stop_requested()) return std::nullopt;
+  return Trouble{socket_error_text(error)};
 }
 
 TcpConnection::~TcpConnection() { closesocket(socket_of(socket_)); }
@@ -255,21 +253,20 @@ bool TcpConnection::wait_for_input(std::chrono::nanoseconds at_most) const { ret
 
 bool TcpConnection::wait_for_room(std::chrono::nanoseconds at_most) const { return wait_for(socket_, POLLWRNORM, at_most); }
 
-std::optional<std::size_t> TcpConnection::read(std::span<std::uint8_t> into, std::string& why) {
+Result<std::size_t> TcpConnection::read(std::span<std::uint8_t> into) {
   const int count = recv(socket_of(socket_), reinterpret_cast<char*>(into.data()), static_cast<int>(into.size()), 0);
   if (count > 0) return static_cast<std::size_t>(count);
   if (count < 0 && WSAGetLastError() == WSAEWOULDBLOCK) return 0;
-  why = count == 0 ? "has closed the connection" : "has broken the connection: " + socket_error_text(WSAGetLastError());
-  return {};
+  return Trouble{count == 0 ? "has closed the connection"
+                            : "has broken the connection: " + socket_error_text(WSAGetLastError())};
 }
 
-std::optional<std::size_t> TcpConnection::write(std::span<const std::uint8_t> bytes, std::string& why) {
+Result<std::size_t> TcpConnection::write(std::span<const std::uint8_t> bytes) {
   const int count =
       ::send(socket_of(socket_), reinterpret_cast<const char*>(bytes.data()), static_cast<int>(bytes.size()), 0);
   if (count >= 0) return static_cast<std::size_t>(count);
   if (WSAGetLastError() == WSAEWOULDBLOCK) return 0;
-  why = "has broken the connection: " + socket_error_text(WSAGetLastError());
-  return {};
+  return Trouble{"has broken the connection: " + socket_error_text(WSAGetLastError())};
 }
 
 }  // namespace s7200::tools

@@ -66,9 +66,8 @@ class LineReader {
   /// and after a complaint.
   std::string place_of(const BridgePlan& bridge, const YamlNode& where) {
     if (row_of(bridge.kind).place != kPortPlace) return bridge.where;
-    std::string why;
-    const auto address = parse_listen_address(bridge.where, why);
-    if (!address) values_.wrong(where, why, "write for example 5020 or 0.0.0.0:5020");
+    const auto address = parse_listen_address(bridge.where);
+    if (!address) values_.wrong(where, address.why(), "write for example 5020 or 0.0.0.0:5020");
     return address && address->port != 0 ? to_text(*address) : "";
   }
 

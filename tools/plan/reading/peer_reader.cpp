@@ -83,10 +83,10 @@ class PeerReader {
 
   std::optional<modbus::DataAddress> read_data_address(const YamlNode& node) {
     const auto text = values_.text(node);
-    std::string why;
-    const auto address = text ? modbus::parse_address(*text, why) : std::nullopt;
-    if (text && !address) values_.wrong(node, why);
-    return address;
+    if (!text) return {};
+    const auto address = modbus::parse_address(*text);
+    if (!address) values_.wrong(node, address.why());
+    return address.if_any();
   }
 
   std::optional<Bytes> read_request(const YamlNode& poll) {
@@ -155,21 +155,23 @@ class PeerReader {
                       "there are " + stl::joined(westinghouse::plcs(), &westinghouse::PlcRow::name));
       return nullptr;
     }
-    std::string why;
     const std::size_t before = values_.complaints.count();
     const std::string model = values_.optional_text(map, "model").value_or(std::string(row->models.front()));
-    std::shared_ptr<westinghouse::Plc> plc = westinghouse::make_plc(*row, model, why);
-    if (!plc) values_.wrong(*map.find("model"), why);
+    auto made = westinghouse::make_plc(*row, model);
+    if (!made) values_.wrong(*map.find("model"), made.why());
+    const std::shared_ptr<westinghouse::Plc> plc = made ? *std::move(made) : nullptr;
     const auto settings = items_of(map, "settings", "unit=05", values_);
     for (const bool cells : {false, true})
       for (const YamlNode* setting : settings) {
         if ((plc && plc->names_cells(setting->text)) != cells) continue;
         const auto text = values_.text(*setting);
-        if (plc && text && !plc->set(*text, why)) values_.wrong(*setting, why);
+        if (!plc || !text) continue;
+        if (const auto done = plc->set(*text); !done) values_.wrong(*setting, done.why());
       }
-    for (const YamlNode* setting : settings)
-      if (plc && values_.complaints.count() == before && !plc->still_reaches(setting->text, why))
-        values_.wrong(*setting, why);
+    for (const YamlNode* setting : settings) {
+      if (!plc || values_.complaints.count() > before) break;
+      if (const auto done = plc->still_reaches(setting->text); !done) values_.wrong(*setting, done.why());
+    }
     if (!plc || values_.complaints.count() > before) return plc;
     const YamlNode* const wire = map.find("sync");
     if (wire && !plc->needs_sync())
@@ -195,12 +197,11 @@ class PeerReader {
       return {};
     }
     if (!plc->program) return {};
-    std::string why;
-    const auto output = parse_range(written->substr(dot + 1), *plc->program, why);
-    if (output && (output->area != Area::Q || output->width != Width::Bit || output->count != 1))
-      why = fmt::format("'{}' is not an output point", stl::shortened(written->substr(dot + 1)));
-    if (!why.empty()) {
-      values_.wrong(node, why, kExample);
+    const auto output = parse_range(written->substr(dot + 1), *plc->program);
+    if (!output || output->area != Area::Q || output->width != Width::Bit || output->count != 1) {
+      values_.wrong(
+          node, output ? fmt::format("'{}' is not an output point", stl::shortened(written->substr(dot + 1))) : output.why(),
+          kExample);
       return {};
     }
     return PeerPlan::Output{static_cast<std::size_t>(plc - plan().plcs.begin()), {output->number, output->bit}};

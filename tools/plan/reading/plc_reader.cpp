@@ -10,6 +10,7 @@
 
 #include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/base/ppi_frame.hpp"
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/joined.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
@@ -108,10 +109,9 @@ class PlcReader {
     for (const YamlNode* node : nodes) {
       const auto written = name_from(*node, values_);
       if (!written) return {};
-      std::string why;
-      const SourceText* const text = text_of(beside(reading_.path, *written), why);
+      const auto text = text_of(beside(reading_.path, *written));
       if (!text) {
-        values_.wrong(*node, fmt::format("cannot read {}: {}", beside(reading_.path, *written), why));
+        values_.wrong(*node, fmt::format("cannot read {}: {}", beside(reading_.path, *written), text.why()));
         return {};
       }
       files.push_back(*text);
@@ -123,12 +123,12 @@ class PlcReader {
     return project;
   }
 
-  const SourceText* text_of(const std::string& path, std::string& why) {
-    if (const auto known = texts_.find(path); known != texts_.end()) return &known->second;
-    if (is_standard_input(path)) why = "a system names its files";
-    const auto bytes = is_standard_input(path) ? std::nullopt : reading_.files.read(path, why);
-    auto text = bytes ? read_source(*bytes, path, why) : std::nullopt;
-    return text ? &texts_.emplace(path, std::move(*text)).first->second : nullptr;
+  Result<const SourceText&> text_of(const std::string& path) {
+    if (const auto known = texts_.find(path); known != texts_.end()) return known->second;
+    if (is_standard_input(path)) return Trouble{"a system names its files"};
+    auto text = reading_.files.read(path).and_then([&](const std::string& bytes) { return read_source(bytes, path); });
+    if (!text) return text.trouble();
+    return texts_.emplace(path, *std::move(text)).first->second;
   }
 
   std::shared_ptr<const Program> read_program(const Named& plc, const CpuModel& model, std::optional<std::int64_t> station) {
@@ -158,13 +158,13 @@ class PlcReader {
   bool repair_slips(const YamlNode& map, stl::Source& source) {
     const auto written = values_.optional_text(map, "repair");
     if (!written) return true;
-    std::string why;
     std::vector<std::string> unknown;
-    const Repairs repairs = parse_repairs(*written, why);
-    if (why.empty()) repair(source, repairs, unknown);
-    if (!unknown.empty()) why = fmt::format("the listing has no slip {}", unknown.front());
-    if (!why.empty()) values_.wrong(*map.find("repair"), why, "`s7200 check` names the slips of a listing that is known");
-    return why.empty();
+    const auto repairs = parse_repairs(*written);
+    if (repairs) repair(source, *repairs, unknown);
+    if (repairs && unknown.empty()) return true;
+    values_.wrong(*map.find("repair"), repairs ? fmt::format("the listing has no slip {}", unknown.front()) : repairs.why(),
+                  "`s7200 check` names the slips of a listing that is known");
+    return false;
   }
 
   std::optional<TimeTable> read_times(const YamlNode& map, const CpuModel& model) {

@@ -104,13 +104,11 @@ std::vector<Assignment> read_assignments(const YamlNode& set, const Program& pro
   }
   for (std::size_t i = 0; i < set.keys.size(); ++i) {
     const auto value = values.text(set.items[i]);
-    std::string why;
-    const auto assignment =
-        value ? parse_assignment(fmt::format("{}={}", set.keys[i].text, *value), program, why) : std::nullopt;
+    const auto assignment = value ? parse_assignment(fmt::format("{}={}", set.keys[i].text, *value), program) : std::nullopt;
     if (assignment)
       all.push_back(*assignment);
     else if (value)
-      values.wrong(set.keys[i], why);
+      values.wrong(set.keys[i], assignment.why());
   }
   return all;
 }

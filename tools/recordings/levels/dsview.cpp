@@ -2,6 +2,7 @@
 // is: `0:UART: RX`.
 #include <fmt/format.h>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
@@ -29,7 +30,7 @@ Remark remark_of(std::string_view cell) {
 
 bool looks_like_dsview(std::string_view bytes) { return bytes.starts_with(kHead); }
 
-std::optional<LineRecording> read_dsview(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
+Result<LineRecording> read_dsview(std::string_view bytes, const ReadingChoices& choices) {
   TableRows rows(bytes, choices.stop);
   const auto names = fields_of(rows.next()->text, ',');
   NotationFinder finder;
@@ -44,8 +45,8 @@ std::optional<LineRecording> read_dsview(std::string_view bytes, const ReadingCh
   for_each_cell([&](const TableRow& row, const auto&, std::size_t, std::string_view cell) {
     if (remark_of(cell) == Remark::None) finder.take(cell, row.number);
   });
-  const Notation* const notation = finder.found(why);
-  if (notation == nullptr) return {};
+  const auto notation = finder.found();
+  if (!notation) return notation.trouble();
   LineRecording recording;
   for_each_cell([&](const TableRow& row, const auto& fields, std::size_t column, std::string_view cell) {
     const Remark remark = remark_of(cell);

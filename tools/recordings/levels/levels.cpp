@@ -243,17 +243,15 @@ std::string how_it_fits(const Wire& wire, const SerialFormat& format, const Read
 
 }  // namespace
 
-std::optional<LineRecording> frames_of(Levels levels, const ReadingChoices& choices, std::string& why) {
+Result<LineRecording> frames_of(Levels levels, const ReadingChoices& choices) {
   std::vector<Wire> wires;
   for (const Channel& channel : levels.channels)
     if (!channel.edges.empty()) wires.push_back(wire_of(channel, levels.end));
-  if (wires.empty()) return why = "no channel of it changes its level", std::nullopt;
+  if (wires.empty()) return Trouble{"no channel of it changes its level"};
   const auto format = format_of_line(wires, choices);
-  if (!format) {
-    why = choices.line.baud ? fmt::format("no channel of it has characters at {} baud", *choices.line.baud)
-                            : "the levels fit no rate that lines have; name it with --baud";
-    return {};
-  }
+  if (!format)
+    return Trouble{choices.line.baud ? fmt::format("no channel of it has characters at {} baud", *choices.line.baud)
+                                     : "the levels fit no rate that lines have; name it with --baud"};
   LineRecording recording{.notes = std::move(levels.notes)};
   std::vector<ReadWire> read;
   for (Wire& wire : wires) {
@@ -264,7 +262,7 @@ std::optional<LineRecording> frames_of(Levels levels, const ReadingChoices& choi
     else
       recording.notes.push_back(fmt::format("channel {} was left out: it has no characters of that line", wire.name));
   }
-  if (read.empty()) return why = fmt::format("no channel of it has characters with {}", format_text(*format)), std::nullopt;
+  if (read.empty()) return trouble("no channel of it has characters with {}", format_text(*format));
   find_repetitions(read, format->bit_times(1));
   for (const ReadWire& each : read)
     if (each.repeats)

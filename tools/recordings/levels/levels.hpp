@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "tools/recordings/recording.hpp"
 
 namespace s7200::tools {
@@ -31,7 +32,7 @@ struct Levels {
 
 /// Makes frames of the characters on the channels. The rate, the parity and the data bits that `choices` do not give are
 /// those that fit the levels; a note says which. Channels that repeat others, or have no characters of that line, are left
-/// out by name. Returns nothing and sets `why` if there is no frame.
-std::optional<LineRecording> frames_of(Levels levels, const ReadingChoices& choices, std::string& why);
+/// out by name. Trouble if there is no frame.
+Result<LineRecording> frames_of(Levels levels, const ReadingChoices& choices);
 
 }  // namespace s7200::tools

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
@@ -102,22 +103,20 @@ class LevelsTableReader {
       levels_.channels.push_back({.name = head_.names[i]});
   }
 
-  /// Takes a row. Returns false and sets `why` if it is not a row of the table.
-  bool take(std::string_view line, std::string& why) {
+  /// Takes a row. Trouble if it is not a row of the table.
+  Result<> take(std::string_view line) {
     const auto fields = fields_of(line, head_.separator);
     const auto at = time_of(fields.front());
-    if (!is_row(fields, head_) || !at) {
-      why = fmt::format("'{}' is not {}", stl::shortened(stl::trim(line)),
-                        at ? "a row of levels" : "at a time after the row above it");
-      return false;
-    }
+    if (!is_row(fields, head_) || !at)
+      return trouble("'{}' is not {}", stl::shortened(stl::trim(line)),
+                     at ? "a row of levels" : "at a time after the row above it");
     now_ = *at;
     ++sample_;
     for (std::size_t i = 0; i < levels_.channels.size(); ++i) {
       const std::string_view level = stl::trim(fields[head_.first_channel() + i]);
       if (is_level(level)) levels_.channels[i].set(now_, level == "1");
     }
-    return true;
+    return {};
   }
 
   Levels finish() {
@@ -170,20 +169,18 @@ bool looks_like_levels_table(std::string_view bytes) {
   return false;
 }
 
-std::optional<LineRecording> read_levels_table(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
+Result<LineRecording> read_levels_table(std::string_view bytes, const ReadingChoices& choices) {
   const Head head = *head_of(bytes);
   const std::uint64_t samplerate = choices.samplerate != 0 ? choices.samplerate : head.samplerate;
-  if (!head.has_time && samplerate == 0) {
-    why = "it has neither times nor a samplerate: name that with --samplerate, as 1MHz";
-    return {};
-  }
+  if (!head.has_time && samplerate == 0)
+    return Trouble{"it has neither times nor a samplerate: name that with --samplerate, as 1MHz"};
   LevelsTableReader reader(head, samplerate);
   std::size_t line = 0;
   for (const std::string_view text : Lines(bytes, choices.stop)) {
     if (line++ < head.lines || stl::trim(text).empty()) continue;
-    if (!reader.take(text, why)) return why = fmt::format("line {}: {}", line, why), std::nullopt;
+    if (const auto done = reader.take(text); !done) return trouble("line {}: {}", line, done.why());
   }
-  return frames_of(reader.finish(), choices, why);
+  return frames_of(reader.finish(), choices);
 }
 
 }  // namespace s7200::tools

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
@@ -173,13 +174,9 @@ bool looks_like_sigrok_annotations(std::string_view bytes) {
                             !other_decoder(bytes).empty());
 }
 
-std::optional<LineRecording> read_sigrok_annotations(std::string_view bytes, const ReadingChoices& choices,
-                                                     std::string& why) {
-  if (const std::string_view other = other_decoder(bytes); !other.empty()) {
-    why = fmt::format("it is what sigrok's decoder {} says, without the characters; print them with sigrok-cli -A uart",
-                      other);
-    return {};
-  }
+Result<LineRecording> read_sigrok_annotations(std::string_view bytes, const ReadingChoices& choices) {
+  if (const std::string_view other = other_decoder(bytes); !other.empty())
+    return trouble("it is what sigrok's decoder {} says, without the characters; print them with sigrok-cli -A uart", other);
   const bool bits = has_bits(bytes);
   std::vector<Character> characters;
   LeftOut left_out;
@@ -198,8 +195,8 @@ std::optional<LineRecording> read_sigrok_annotations(std::string_view bytes, con
       characters.push_back({.annotation = *annotation});
     }
   }
-  const Notation* const notation = finder.found(why);
-  if (notation == nullptr) return {};
+  const auto notation = finder.found();
+  if (!notation) return notation.trouble();
   Frames frames(choices);
   frames.measure(characters);
   for (const Character& character : characters) frames.add(character, *notation->read(character.annotation.text));

@@ -12,6 +12,7 @@
 #include <map>
 #include <utility>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/levels/levels.hpp"
@@ -58,9 +59,9 @@ bool looks_like_sigrok_bits(std::string_view bytes) {
   return !head.empty() && head.find(kAtRate) != std::string_view::npos;
 }
 
-std::optional<LineRecording> read_sigrok_bits(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
+Result<LineRecording> read_sigrok_bits(std::string_view bytes, const ReadingChoices& choices) {
   const auto samplerate = choices.samplerate != 0 ? std::optional(choices.samplerate) : samplerate_in(head_line(bytes));
-  if (!samplerate) return why = "its rate is not understood: name it with --samplerate, as 1MHz", std::nullopt;
+  if (!samplerate) return Trouble{"its rate is not understood: name it with --samplerate, as 1MHz"};
   struct Samples {
     std::size_t channel = 0;
     std::uint64_t count = 0;
@@ -72,11 +73,9 @@ std::optional<LineRecording> read_sigrok_bits(std::string_view bytes, const Read
     const bool was_after_head = std::exchange(after_head, after_head || line.starts_with(kAcquisition));
     if (!was_after_head || stl::trim(line).empty()) continue;
     const auto row = bits_row(line);
-    if (!row) {
-      why = fmt::format("'{}' is not a row of bits; print them with sigrok-cli -O bits, -O vcd or -O csv",
-                        stl::shortened(stl::trim(line)));
-      return {};
-    }
+    if (!row)
+      return trouble("'{}' is not a row of bits; print them with sigrok-cli -O bits, -O vcd or -O csv",
+                     stl::shortened(stl::trim(line)));
     auto& [channel, count] = channels.try_emplace(std::string(row->channel), Samples{levels.channels.size()}).first->second;
     if (channel == levels.channels.size()) levels.channels.push_back({.name = std::string(row->channel)});
     for (const char bit : row->bits) {
@@ -86,7 +85,7 @@ std::optional<LineRecording> read_sigrok_bits(std::string_view bytes, const Read
       levels.end = std::max(levels.end, at);
     }
   }
-  return frames_of(std::move(levels), choices, why);
+  return frames_of(std::move(levels), choices);
 }
 
 }  // namespace s7200::tools

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
@@ -115,32 +116,35 @@ std::string why_not_sigrok(const Zip& zip) {
   return "a zip that is not a session of sigrok: unpack the recording";
 }
 
+/// Zip::read() with what it means that `take` wants no more.
+Result<> read_of(const Zip& zip, std::string_view name, const std::function<bool(std::string_view piece)>& take,
+                 std::string_view too_much) {
+  const auto done = zip.read(name, take);
+  return !done && done.why().empty() ? Trouble{std::string(too_much)} : done;
+}
+
 }  // namespace
 
 bool looks_like_sigrok_session(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
 
-std::optional<LineRecording> read_sigrok_session(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
-  const auto zip = Zip::open(bytes, why);
-  if (!zip) return {};
-  if (!zip->has("metadata")) return why = why_not_sigrok(*zip), std::nullopt;
+Result<LineRecording> read_sigrok_session(std::string_view bytes, const ReadingChoices& choices) {
+  const auto zip = Zip::open(bytes);
+  if (!zip) return zip.trouble();
+  if (!zip->has("metadata")) return Trouble{why_not_sigrok(*zip)};
   constexpr std::size_t kMostMetadata = std::size_t{1} << 20;
   std::string metadata;
   const auto keep = [&](std::string_view piece) { return metadata += piece, metadata.size() < kMostMetadata; };
-  why = "its metadata are too long";
-  if (!zip->read("metadata", keep, why)) return {};
+  if (const auto done = read_of(*zip, "metadata", keep, "its metadata are too long"); !done) return done.trouble();
   const Device device = device_of(metadata);
   const auto files = files_of(*zip, device);
   const std::uint64_t samplerate = choices.samplerate != 0 ? choices.samplerate : device.samplerate;
-  if (files.empty() || device.probes.empty()) return why = "it has no levels; sigrok decodes analog channels", std::nullopt;
-  if (samplerate == 0) return why = "it does not say its samplerate: name it with --samplerate, as 1MHz", std::nullopt;
+  if (files.empty() || device.probes.empty()) return Trouble{"it has no levels; sigrok decodes analog channels"};
+  if (samplerate == 0) return Trouble{"it does not say its samplerate: name it with --samplerate, as 1MHz"};
   Sampler sampler(device, samplerate);
-  why = "it is longer than a recording can be";
+  const auto take = [&](std::string_view piece) { return sampler.take(piece); };
   for (const std::string& file : files)
-    if (!zip->read(
-            file, [&](std::string_view piece) { return sampler.take(piece); }, why))
-      return {};
-  why.clear();
-  return frames_of(sampler.finish(), choices, why);
+    if (const auto done = read_of(*zip, file, take, "it is longer than a recording can be"); !done) return done.trouble();
+  return frames_of(sampler.finish(), choices);
 }
 
 }  // namespace s7200::tools

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
@@ -61,39 +62,39 @@ class VcdReader {
  public:
   explicit VcdReader(std::string_view text) : rest_(text) {}
 
-  std::optional<Levels> read(std::string& why) {
+  Result<Levels> read() {
     while (true) {
       const std::string_view word = take_word(rest_);
       if (word.empty()) return finish();
-      if (!take(word, why)) return {};
+      if (const auto done = take(word); !done) return done.trouble();
     }
   }
 
  private:
-  bool take(std::string_view word, std::string& why) {
+  Result<> take(std::string_view word) {
     switch (word.front()) {
       case '$':
-        return take_section_of(word, why);
+        return take_section_of(word);
       case '#':
-        return take_time(word.substr(1), why);
+        return take_time(word.substr(1));
       case 'b':
       case 'B':
         set_bits(take_word(rest_), word.substr(1));
-        return true;
+        return {};
       case 'r':
       case 'R':
         take_word(rest_);
-        return true;
+        return {};
       default:
         set_bits(word.substr(1), word.substr(0, 1));
-        return true;
+        return {};
     }
   }
 
-  bool take_section_of(std::string_view name, std::string& why) {
+  Result<> take_section_of(std::string_view name) {
     if (name == "$timescale") {
       const auto scale = scale_of(take_section(rest_));
-      if (!scale) return why = "its $timescale is not one", false;
+      if (!scale) return Trouble{"its $timescale is not one"};
       scale_ = *scale;
     } else if (name == "$var") {
       add_variable(take_section(rest_));
@@ -102,7 +103,7 @@ class VcdReader {
     } else {
       take_section(rest_);
     }
-    return true;
+    return {};
   }
 
   /// Adds a variable: `wire 1 ! rx`, `wire 2 ! bus [1:0]` with a channel for each bit, the highest first.
@@ -144,16 +145,14 @@ class VcdReader {
     return std::move(levels_);
   }
 
-  bool take_time(std::string_view digits, std::string& why) {
+  Result<> take_time(std::string_view digits) {
     __extension__ using Wide = __int128;
     const auto ticks = parse_decimal<std::int64_t>(digits);
     const Wide time = ticks ? Wide{*ticks} * scale_.times / scale_.per : -1;
-    if (time < now_ || time >= kFurthestTime) {
-      why = fmt::format("#{} is not a time after the one before it", stl::shortened(digits));
-      return false;
-    }
+    if (time < now_ || time >= kFurthestTime)
+      return trouble("#{} is not a time after the one before it", stl::shortened(digits));
     now_ = static_cast<Time>(time);
-    return true;
+    return {};
   }
 
   /// Sets the bits of a variable; before the first that are written stand more like it, or 0 before a 1.
@@ -197,9 +196,10 @@ bool looks_like_vcd(std::string_view bytes) {
   return rest.starts_with('$') && rest.find("$enddefinitions") != std::string_view::npos && is_text(bytes);
 }
 
-std::optional<LineRecording> read_vcd(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
-  auto levels = VcdReader(bytes).read(why);
-  return levels ? frames_of(std::move(*levels), choices, why) : std::nullopt;
+Result<LineRecording> read_vcd(std::string_view bytes, const ReadingChoices& choices) {
+  auto levels = VcdReader(bytes).read();
+  if (!levels) return levels.trouble();
+  return frames_of(*std::move(levels), choices);
 }
 
 }  // namespace s7200::tools

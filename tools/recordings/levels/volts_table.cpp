@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
@@ -203,10 +204,10 @@ class VoltsReader {
  public:
   VoltsReader(const VoltsHead& head, const ReadingChoices& choices) : head_(head), choices_(choices) {}
 
-  /// Calls `tell` with the number of a row's line, its time and its fields. Returns false and sets `why` if a row has no
+  /// Calls `tell` with the number of a row's line, its time and its fields. Trouble if a row has no
   /// time, or one before that of the row above.
   template <typename Tell>
-  bool each_row(std::string_view bytes, std::string& why, Tell tell) const {
+  Result<> each_row(std::string_view bytes, Tell tell) const {
     std::vector<std::string> fields;
     std::size_t line = 0;
     std::uint64_t sample = 0;
@@ -219,14 +220,12 @@ class VoltsReader {
       const auto time = time_of(fields[head_.first], sample++);
       if (time && !begin) begin = *time;
       const long double since = time ? *time - *begin : -1;
-      if (!(since >= static_cast<long double>(last) && since < static_cast<long double>(kFurthestTime))) {
-        why = fmt::format("line {}: '{}' is not at a time after the row above it", line, stl::shortened(stl::trim(text)));
-        return false;
-      }
+      if (!(since >= static_cast<long double>(last) && since < static_cast<long double>(kFurthestTime)))
+        return trouble("line {}: '{}' is not at a time after the row above it", line, stl::shortened(stl::trim(text)));
       last = std::llround(since);
       tell(last, fields);
     }
-    return true;
+    return {};
   }
 
   /// The voltage of a channel in a row, infinite beyond the range; nothing where the oscilloscope has none.
@@ -270,12 +269,11 @@ std::string name_of_channel(const VoltsHead& head, std::size_t channel) {
 
 bool looks_like_volts_table(std::string_view bytes) { return is_text(bytes) && volts_head_of(bytes).has_value(); }
 
-std::optional<LineRecording> read_volts_table(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
+Result<LineRecording> read_volts_table(std::string_view bytes, const ReadingChoices& choices) {
   const VoltsHead head = *volts_head_of(bytes);
-  if ((!head.has_time || head.counts) && !head.interval && choices.samplerate == 0) {
-    why = "it has volts and no times: name the rate of its samples with --samplerate, as 1MHz, or export the times, too";
-    return {};
-  }
+  if ((!head.has_time || head.counts) && !head.interval && choices.samplerate == 0)
+    return Trouble{
+        "it has volts and no times: name the rate of its samples with --samplerate, as 1MHz, or export the times, too"};
   const VoltsReader reader(head, choices);
   std::vector<Swing> swings(head.columns - head.first_channel());
   Time end = 0;
@@ -286,7 +284,7 @@ std::optional<LineRecording> read_volts_table(std::string_view bytes, const Read
     for (std::size_t i = 0; i < swings.size(); ++i)
       if (const auto volts = reader.volts(fields, i)) swings[i].take(*volts);
   };
-  if (!reader.each_row(bytes, why, measure)) return {};
+  if (const auto done = reader.each_row(bytes, measure); !done) return done.trouble();
   Levels levels{.end = end};
   for (std::size_t i = 0; i < swings.size(); ++i) levels.channels.push_back({.name = name_of_channel(head, i)});
   const auto take = [&](Time at, const std::vector<std::string>& fields) {
@@ -294,19 +292,19 @@ std::optional<LineRecording> read_volts_table(std::string_view bytes, const Read
       if (const auto volts = reader.volts(fields, i))
         if (const auto level = level_of(*volts, swings[i])) levels.channels[i].set(at, *level);
   };
-  if (!reader.each_row(bytes, why, take)) return {};
+  if (const auto done = reader.each_row(bytes, take); !done) return done.trouble();
   for (std::size_t i = 0; i < swings.size(); ++i) {
     if (levels.channels[i].edges.empty()) continue;
     levels.notes.push_back(fmt::format("{}: its volts from {:g} to {:g} are levels by a threshold of {:g}",
                                        stl::printable(stl::shortened(levels.channels[i].name)), swings[i].low,
                                        swings[i].high, (swings[i].low + swings[i].high) / 2));
   }
-  auto recording = frames_of(std::move(levels), choices, why);
+  auto recording = frames_of(std::move(levels), choices);
   if (!recording && rows > 1)
-    why += fmt::format(
-        "; its samples are {} apart: a line needs four or more in each bit, and if there are fewer, export "
+    return trouble(
+        "{}; its samples are {} apart: a line needs four or more in each bit, and if there are fewer, export "
         "more of them, or the frames of the oscilloscope's serial decoder",
-        format_duration(end / static_cast<Time>(rows - 1), 0));
+        recording.why(), format_duration(end / static_cast<Time>(rows - 1), 0));
   return recording;
 }
 

@@ -129,7 +129,7 @@ bool looks_like_emodbus(std::string_view bytes) {
          std::ranges::any_of(Lines(beginning_of(bytes)), [](std::string_view line) { return heading_of(line).has_value(); });
 }
 
-std::optional<LineRecording> read_emodbus(std::string_view bytes, const ReadingChoices& choices, std::string&) {
+Result<LineRecording> read_emodbus(std::string_view bytes, const ReadingChoices& choices) {
   EmodbusReader reader;
   for (const std::string_view line : Lines(bytes, choices.stop)) reader.take(line);
   return reader.finish();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/left_out.hpp"
@@ -68,7 +69,7 @@ bool looks_like_esphome(std::string_view bytes) {
   return is_text(bytes) && beginning_of(bytes).find(kTag) != std::string_view::npos;
 }
 
-std::optional<LineRecording> read_esphome(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
+Result<LineRecording> read_esphome(std::string_view bytes, const ReadingChoices& choices) {
   std::vector<LoggedBytes> all;
   LeftOut left_out;
   NotationFinder finder;
@@ -86,8 +87,8 @@ std::optional<LineRecording> read_esphome(std::string_view bytes, const ReadingC
       for (const std::string& part : parts_of(logged->written)) finder.take(part, logged->number), has_numbers = true;
     all.push_back(std::move(*logged));
   }
-  const Notation* const notation = has_numbers ? finder.found(why) : nullptr;
-  if (has_numbers && notation == nullptr) return {};
+  const auto notation = has_numbers ? finder.found() : Trouble{};
+  if (has_numbers && !notation) return notation.trouble();
   LineRecording recording;
   DayCounter days;
   for (const LoggedBytes& logged : all) {

@@ -55,7 +55,7 @@ bool looks_like_esphome_modbus(std::string_view bytes) {
          });
 }
 
-std::optional<LineRecording> read_esphome_modbus(std::string_view bytes, const ReadingChoices& choices, std::string&) {
+Result<LineRecording> read_esphome_modbus(std::string_view bytes, const ReadingChoices& choices) {
   LineRecording recording;
   LeftOut left_out;
   DayCounter days;

@@ -9,6 +9,7 @@
 #include <array>
 #include <memory>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/json/base64.hpp"
 #include "tools/recordings/forms.hpp"
@@ -105,22 +106,22 @@ std::string_view value_of_key(std::string_view line, std::string_view key) {
   return has_key ? stl::trim(line.substr(key.size() + 1)) : "";
 }
 
-/// Returns false and sets `why` if bytes are not base64.
-bool read_packets(std::string_view text, StopToken stop, LineRecording& recording, std::string& why) {
+/// Trouble if bytes are not base64.
+Result<> read_packets(std::string_view text, StopToken stop, LineRecording& recording) {
   std::string base64;
   std::size_t number = 0;
   bool in_bytes = false;
-  const auto end_packet = [&] {
-    if (recording.frames.empty() || !recording.frames.back().bytes.empty()) return true;
+  const auto end_packet = [&]() -> Result<> {
+    if (recording.frames.empty() || !recording.frames.back().bytes.empty()) return {};
     auto bytes = from_base64(base64);
-    if (!bytes) return why = fmt::format("{}: its bytes are not base64", recording.frames.back().place), false;
+    if (!bytes) return trouble("{}: its bytes are not base64", recording.frames.back().place);
     recording.frames.back().bytes = *std::move(bytes);
-    return true;
+    return {};
   };
   for (const std::string_view line : Lines(text, stop)) {
     ++number;
     if (!value_of_key(line, "packet").empty()) {
-      if (!end_packet()) return false;
+      if (const auto done = end_packet(); !done) return done;
       recording.frames.push_back(frame_of_peer(false, number));
       base64.clear();
       in_bytes = false;
@@ -159,14 +160,14 @@ bool looks_like_followed_stream(std::string_view bytes) {
   return has_followed_arrays(beginning) || has_followed_packets(beginning) || is_followed_dump(beginning);
 }
 
-std::optional<LineRecording> read_followed_stream(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
+Result<LineRecording> read_followed_stream(std::string_view bytes, const ReadingChoices& choices) {
   LineRecording recording;
   if (has_followed_arrays(bytes))
     read_arrays(bytes, choices.stop, recording);
   else if (!has_followed_packets(beginning_of(bytes)))
     read_dump(bytes, choices.stop, recording);
-  else if (!read_packets(bytes, choices.stop, recording, why))
-    return {};
+  else if (const auto done = read_packets(bytes, choices.stop, recording); !done)
+    return done.trouble();
   for (RecordedFrame& frame : recording.frames)
     if (frame.bytes.empty()) frame.doubt = std::make_shared<Doubt>(Doubt{.why = "no bytes in it"});
   count_from_first(recording);

@@ -46,7 +46,7 @@ bool looks_like_libmodbus(std::string_view bytes) {
   });
 }
 
-std::optional<LineRecording> read_libmodbus(std::string_view bytes, const ReadingChoices& choices, std::string&) {
+Result<LineRecording> read_libmodbus(std::string_view bytes, const ReadingChoices& choices) {
   LineRecording recording;
   std::size_t number = 0;
   for (const std::string_view line : Lines(bytes, choices.stop)) {

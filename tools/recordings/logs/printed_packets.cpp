@@ -71,17 +71,16 @@ bool has_ip_head(const Bytes& packet) {
   return std::ranges::any_of(kLinks, [&](const Link& link) { return length_with(link, packet) != 0; });
 }
 
-std::optional<LineRecording> read_printed_packets(std::span<const PrintedPacket> packets, std::string_view instead,
-                                                  const ReadingChoices& choices, std::string& why) {
+Result<LineRecording> read_printed_packets(std::span<const PrintedPacket> packets, std::string_view instead,
+                                           const ReadingChoices& choices) {
   const Link& link = link_of(packets);
   for (const PrintedPacket& packet : packets) {
     const std::size_t length = length_with(link, packet.bytes);
     if (packet.bytes.size() >= length) continue;
-    why = fmt::format("line {}: {} bytes of the packet's {} are below it; {}", packet.number, packet.bytes.size(), length,
-                      instead);
-    return {};
+    return trouble("line {}: {} bytes of the packet's {} are below it; {}", packet.number, packet.bytes.size(), length,
+                   instead);
   }
-  return read_pcap(pcap_of(packets, link.type), choices, why);
+  return read_pcap(pcap_of(packets, link.type), choices);
 }
 
 }  // namespace s7200::tools

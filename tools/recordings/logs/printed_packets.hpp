@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "interpreter/base/result.hpp"
 #include "tools/recordings/recording.hpp"
 
 namespace s7200::tools {
@@ -17,9 +18,9 @@ struct PrintedPacket {
 /// Whether bytes are an IP packet with or without the head of Ethernet, or of Linux's device for all interfaces.
 bool has_ip_head(const Bytes& packet);
 
-/// Reads packets as a pcap with them. Returns nothing and sets `why` if one is not there to its end; `instead` is how to
+/// Reads packets as a pcap with them. Trouble if one is not there to its end; `instead` is how to
 /// record it whole.
-std::optional<LineRecording> read_printed_packets(std::span<const PrintedPacket> packets, std::string_view instead,
-                                                  const ReadingChoices& choices, std::string& why);
+Result<LineRecording> read_printed_packets(std::span<const PrintedPacket> packets, std::string_view instead,
+                                           const ReadingChoices& choices);
 
 }  // namespace s7200::tools

@@ -115,7 +115,7 @@ bool looks_like_pymodbus(std::string_view bytes) {
 
 /// A log that begins with what was sent is a client's. One that begins with what has come may be a server's, or begin in the
 /// middle: then the frames have to say it themselves.
-std::optional<LineRecording> read_pymodbus(std::string_view bytes, const ReadingChoices& choices, std::string&) {
+Result<LineRecording> read_pymodbus(std::string_view bytes, const ReadingChoices& choices) {
   LineRecording recording;
   DayCounter days;
   std::optional<bool> is_client;

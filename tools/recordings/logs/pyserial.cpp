@@ -52,7 +52,7 @@ bool looks_like_pyserial(std::string_view bytes) {
          std::ranges::any_of(Lines(beginning_of(bytes)), [](std::string_view line) { return spied_row(line).has_value(); });
 }
 
-std::optional<LineRecording> read_pyserial(std::string_view bytes, const ReadingChoices& choices, std::string&) {
+Result<LineRecording> read_pyserial(std::string_view bytes, const ReadingChoices& choices) {
   LineRecording recording;
   LeftOut left_out;
   std::size_t number = 0;

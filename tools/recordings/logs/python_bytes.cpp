@@ -51,7 +51,7 @@ bool looks_like_python_bytes(std::string_view bytes) {
          });
 }
 
-std::optional<LineRecording> read_python_bytes(std::string_view bytes, const ReadingChoices& choices, std::string&) {
+Result<LineRecording> read_python_bytes(std::string_view bytes, const ReadingChoices& choices) {
   LineRecording recording;
   LeftOut left_out;
   DayCounter days;

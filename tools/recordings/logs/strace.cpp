@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
@@ -164,7 +165,7 @@ class StraceReader {
       note_descriptor(*call);
   }
 
-  std::optional<LineRecording> finish(std::string& why) {
+  Result<LineRecording> finish() {
     if (std::ranges::any_of(moved_, [](const Moved& each) { return each.kind == Kind::Line; }))
       std::erase_if(moved_, [](const Moved& each) { return each.kind != Kind::Line && each.descriptor != kNotKnown; });
     std::set<int> descriptors;
@@ -174,11 +175,9 @@ class StraceReader {
       descriptors.insert(each.descriptor);
       known = each.kind == Kind::Line;
     }
-    if (!known && descriptors.size() > 1) {
-      why = fmt::format("it has calls of the descriptors {}; which of them is the line is not in it: trace with strace -y",
-                        fmt::join(descriptors, ", "));
-      return {};
-    }
+    if (!known && descriptors.size() > 1)
+      return trouble("it has calls of the descriptors {}; which of them is the line is not in it: trace with strace -y",
+                     fmt::join(descriptors, ", "));
     add_frames();
     count_from_first(recording_);
     left_out_.tell(recording_);
@@ -314,10 +313,10 @@ bool looks_like_strace(std::string_view bytes) {
   return is_text(bytes) && std::ranges::any_of(Lines(beginning_of(bytes)), is_of_strace);
 }
 
-std::optional<LineRecording> read_strace(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
+Result<LineRecording> read_strace(std::string_view bytes, const ReadingChoices& choices) {
   StraceReader reader;
   for (const std::string_view line : Lines(bytes, choices.stop)) reader.take(line);
-  return reader.finish(why);
+  return reader.finish();
 }
 
 }  // namespace s7200::tools

@@ -41,7 +41,7 @@ bool looks_like_tasmota(std::string_view bytes) {
          });
 }
 
-std::optional<LineRecording> read_tasmota(std::string_view bytes, const ReadingChoices& choices, std::string&) {
+Result<LineRecording> read_tasmota(std::string_view bytes, const ReadingChoices& choices) {
   LineRecording recording;
   LeftOut left_out;
   DayCounter days;

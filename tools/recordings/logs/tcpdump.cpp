@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/logs/printed_packets.hpp"
@@ -39,22 +40,20 @@ std::optional<TcpdumpRow> tcpdump_row(std::string_view line) {
 }
 
 /// Takes the rows of packets. Returns false after a message if a row is missing.
-bool take_rows(std::string_view text, StopToken stop, std::vector<PrintedPacket>& packets, std::string& why) {
+Result<> take_rows(std::string_view text, StopToken stop, std::vector<PrintedPacket>& packets) {
   DayCounter days;
   std::size_t number = 0;
   for (const std::string_view line : Lines(text, stop)) {
     ++number;
     if (const auto row = tcpdump_row(line)) {
-      if (packets.empty() || packets.back().bytes.size() != row->offset) {
-        why = fmt::format("line {}: rows before it are missing; record with tcpdump -w FILE.pcap", number);
-        return false;
-      }
+      if (packets.empty() || packets.back().bytes.size() != row->offset)
+        return trouble("line {}: rows before it are missing; record with tcpdump -w FILE.pcap", number);
       packets.back().bytes.insert(packets.back().bytes.end(), row->bytes.begin(), row->bytes.end());
     } else if (const auto time = leading_time(line); time && time->time >= 0) {
       packets.push_back({.at = days.since_first_midnight(*time), .number = number});
     }
   }
-  return true;
+  return {};
 }
 
 }  // namespace
@@ -68,11 +67,11 @@ bool looks_like_tcpdump(std::string_view bytes) {
   return false;
 }
 
-std::optional<LineRecording> read_tcpdump(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
+Result<LineRecording> read_tcpdump(std::string_view bytes, const ReadingChoices& choices) {
   std::vector<PrintedPacket> packets;
-  if (!take_rows(bytes, choices.stop, packets, why)) return {};
+  if (const auto done = take_rows(bytes, choices.stop, packets); !done) return done.trouble();
   std::erase_if(packets, [](const PrintedPacket& packet) { return packet.bytes.empty() || packet.at < 0; });
-  return read_printed_packets(packets, "record with tcpdump -w FILE.pcap", choices, why);
+  return read_printed_packets(packets, "record with tcpdump -w FILE.pcap", choices);
 }
 
 }  // namespace s7200::tools

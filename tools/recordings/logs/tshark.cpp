@@ -9,6 +9,7 @@
 #include <array>
 #include <utility>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/logs/printed_packets.hpp"
@@ -72,8 +73,8 @@ struct Packets {
   std::size_t listed = 0;  ///< those that have a line about them
 };
 
-/// Takes the rows of packets. Returns nothing and sets `why` if a row is missing.
-std::optional<Packets> packets_of(std::string_view text, StopToken stop, std::string& why) {
+/// Takes the rows of packets. Trouble if a row is missing.
+Result<Packets> packets_of(std::string_view text, StopToken stop) {
   Packets packets;
   DayCounter days;
   std::optional<Time> next;
@@ -89,10 +90,8 @@ std::optional<Packets> packets_of(std::string_view text, StopToken stop, std::st
     const auto row = tshark_row(line);
     if (!row) continue;
     if (row->offset == 0) packets.all.push_back({.at = std::exchange(next, std::nullopt).value_or(0), .number = number});
-    if (packets.all.empty() || packets.all.back().bytes.size() != row->offset) {
-      why = fmt::format("line {}: rows before it are missing; {}", number, kInstead);
-      return {};
-    }
+    if (packets.all.empty() || packets.all.back().bytes.size() != row->offset)
+      return trouble("line {}: rows before it are missing; {}", number, kInstead);
     Bytes& bytes = packets.all.back().bytes;
     bytes.insert(bytes.end(), row->bytes.begin(), row->bytes.end());
   }
@@ -117,18 +116,14 @@ bool looks_like_tshark(std::string_view bytes) {
   return first.empty() ? listed > 1 : has_ip_head(first);
 }
 
-std::optional<LineRecording> read_tshark(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
-  const auto packets = packets_of(bytes, choices.stop, why);
-  if (!packets) return {};
-  if (packets->all.empty() && is_list_of_packets(bytes)) {
-    why = "it is Wireshark's list of packets without their bytes; save the capture itself, with File, Save As";
-    return {};
-  }
-  if (packets->all.empty()) {
-    why = fmt::format("it is the list of packets without their bytes; print them with tshark -x, or {}", kInstead);
-    return {};
-  }
-  auto recording = read_printed_packets(packets->all, kInstead, choices, why);
+Result<LineRecording> read_tshark(std::string_view bytes, const ReadingChoices& choices) {
+  const auto packets = packets_of(bytes, choices.stop);
+  if (!packets) return packets.trouble();
+  if (packets->all.empty() && is_list_of_packets(bytes))
+    return Trouble{"it is Wireshark's list of packets without their bytes; save the capture itself, with File, Save As"};
+  if (packets->all.empty())
+    return trouble("it is the list of packets without their bytes; print them with tshark -x, or {}", kInstead);
+  auto recording = read_printed_packets(packets->all, kInstead, choices);
   if (!recording || packets->listed > 0) return recording;
   for (RecordedFrame& frame : recording->frames) frame.at.reset(), frame.times.clear();
   recording->notes.emplace_back("tshark -x alone prints no times; tshark -P -x does");

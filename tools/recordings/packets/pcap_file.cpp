@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "interpreter/base/result.hpp"
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tools/recordings/capture_file.hpp"
@@ -150,9 +151,9 @@ class PacketFrames {
     serial_.cut_off();
   }
 
-  /// The recording. Nothing with `why` set if several devices are captured and none is known to be the line.
-  std::optional<LineRecording> finish(std::string& why) {
-    if (!serial_.finish(recording_, why)) return {};
+  /// The recording. Trouble if several devices are captured and none is known to be the line.
+  Result<LineRecording> finish() {
+    if (const auto done = serial_.finish(recording_); !done) return done.trouble();
     note_left_out(others_, fmt::format("not of TCP port {}", choices_.tcp_port));
     if (recording_.frames.empty() && !other_ports_.empty()) {
       const auto most = std::ranges::max_element(other_ports_, {}, [](const auto& each) { return each.second; });
@@ -276,33 +277,29 @@ bool is_known(int link_type) {
 
 }  // namespace
 
-std::optional<LineRecording> read_pcap(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
-  auto capture = CaptureFile::open(bytes, why);
-  if (!capture) return {};
+Result<LineRecording> read_pcap(std::string_view bytes, const ReadingChoices& choices) {
+  auto capture = CaptureFile::open(bytes);
+  if (!capture) return capture.trouble();
   PacketFrames reader(choices);
   std::set<int> with_packets;
   while (const auto packet = capture->next()) {
     with_packets.insert(packet->link_type);
     if (!is_known(packet->link_type)) continue;
-    if (std::abs(packet->seconds) >= kFurthestTime / kSecond) {
-      why = fmt::format("packet {}: {} s since 1970 is not a time of a recording", packet->number, packet->seconds);
-      return {};
-    }
+    if (std::abs(packet->seconds) >= kFurthestTime / kSecond)
+      return trouble("packet {}: {} s since 1970 is not a time of a recording", packet->number, packet->seconds);
     reader.take(packet->number, packet->seconds * kSecond + packet->nanoseconds, packet->link_type, packet->data);
   }
   std::set<int> unknown = with_packets.empty() ? capture->link_types() : with_packets;
   const bool only_unknown = !unknown.empty() && std::ranges::none_of(unknown, is_known);
   std::erase_if(unknown, is_known);
-  if (only_unknown) {
-    why = fmt::format(
+  if (only_unknown)
+    return trouble(
         "link type {} is not one of 147 to 162 (serial), 250 (RTAC serial), 189, 220 and 249 (USB), Ethernet, "
         "Linux cooked, loopback or raw IP",
         *unknown.begin());
-    return {};
-  }
   if (!capture->error().empty()) reader.cut_off();
-  auto recording = reader.finish(why);
-  if (!recording) return {};
+  auto recording = reader.finish();
+  if (!recording) return recording.trouble();
   if (!capture->has_times()) {
     for (RecordedFrame& frame : recording->frames) frame.at.reset(), frame.times.clear();
     recording->notes.emplace_back("it has simple packets of pcapng, which have no times");

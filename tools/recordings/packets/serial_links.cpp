@@ -222,7 +222,7 @@ void SerialLinks::take(const std::string& place, Time at, const UsbTransfer& tra
       {.at = at, .in = transfer.in, .bytes = Bytes(transfer.data.begin(), transfer.data.end()), .place = place});
 }
 
-bool SerialLinks::finish(LineRecording& recording, std::string& why) {
+Result<> SerialLinks::finish(LineRecording& recording) {
   std::vector<std::uint32_t> known, unknown;
   for (auto& [device, adapter] : adapters_) {
     const bool answers = std::ranges::any_of(adapter.moved, &UsbAdapter::Moved::in);
@@ -232,12 +232,10 @@ bool SerialLinks::finish(LineRecording& recording, std::string& why) {
     (adapter.kind.empty() && !as_ftdi ? unknown : known).push_back(device);
   }
   const std::vector<std::uint32_t>& lines = known.empty() ? unknown : known;
-  if (lines.size() > 1) {
-    why = fmt::format(
+  if (lines.size() > 1)
+    return trouble(
         "the USB devices {0} and {1} have data; keep one: tshark -r FILE -Y 'usb.device_address == {2}' -w ONE.pcap",
         name_of_device(lines[0]), name_of_device(lines[1]), lines[0] & 0xFFFF);
-    return false;
-  }
   for (const std::uint32_t device : lines) {
     UsbAdapter& adapter = adapters_[device];
     notes_.push_back(
@@ -259,7 +257,7 @@ bool SerialLinks::finish(LineRecording& recording, std::string& why) {
   }
   std::ranges::move(notes_, std::back_inserter(recording.notes));
   recording.is_log |= is_log_;
-  return true;
+  return {};
 }
 
 }  // namespace s7200::tools

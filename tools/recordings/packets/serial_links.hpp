@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "tools/recordings/recording.hpp"
 
 namespace s7200::tools {
@@ -45,8 +46,8 @@ class SerialLinks {
   /// The file ends before its end: what comes after the last frame is missing.
   void cut_off() { ends_early_ = true; }
 
-  /// Adds the frames. Returns false and sets `why` if several devices are captured and none is known to be the line.
-  bool finish(LineRecording& recording, std::string& why);
+  /// Adds the frames. Trouble if several devices are captured and none is known to be the line.
+  Result<> finish(LineRecording& recording);
 
  private:
   void take_rtac(const std::string& place, Time at, std::span<const std::uint8_t> packet);

@@ -71,18 +71,18 @@ class Inflater {
 
 }  // namespace
 
-std::optional<Zip> Zip::open(std::string_view bytes, std::string& why) {
+Result<Zip> Zip::open(std::string_view bytes) {
   Zip zip;
   zip.bytes_ = bytes;
   const std::size_t at = bytes.rfind(kEnd);  // only a comment can follow
   const std::string_view end = at == std::string_view::npos ? std::string_view{} : bytes.substr(at);
-  if (end.size() < kEndLength) return why = "the zip cannot be read: it is cut off", std::nullopt;
+  if (end.size() < kEndLength) return Trouble{"the zip cannot be read: it is cut off"};
   std::string_view directory = from(bytes, size_at(end, 16));
   for (std::size_t left = length_at(end, 10); left > 0; --left) {
     const bool header = is_record(directory, kDirectoryHeader, kDirectoryHeaderLength);
     const std::size_t name = header ? length_at(directory, 28) : 0;
     if (!header || directory.size() < kDirectoryHeaderLength + name)
-      return why = "the zip cannot be read: its directory is damaged", std::nullopt;
+      return Trouble{"the zip cannot be read: its directory is damaged"};
     zip.entries_.emplace(directory.substr(kDirectoryHeaderLength, name), directory);
     directory = from(directory, kDirectoryHeaderLength + name + length_at(directory, 30) + length_at(directory, 32));
   }
@@ -102,7 +102,7 @@ std::optional<Zip::Entry> Zip::entry_at(std::string_view header) const {
   return Entry{data.substr(0, packed), number_at(header, 16, 4), method == kDeflated};
 }
 
-bool Zip::read(std::string_view name, const std::function<bool(std::string_view piece)>& tell, std::string& why) const {
+Result<> Zip::read(std::string_view name, const std::function<bool(std::string_view piece)>& tell) const {
   const auto found = entries_.find(name);
   const auto entry = found == entries_.end() ? std::nullopt : entry_at(found->second);
   uLong checksum = crc32(0, nullptr, 0);
@@ -114,14 +114,13 @@ bool Zip::read(std::string_view name, const std::function<bool(std::string_view 
   if (entry && entry->deflated) {
     const auto inflater = std::make_unique<Inflater>(entry->packed);
     for (auto piece = inflater->next(); !piece.empty(); piece = inflater->next())
-      if (!pass_on(piece)) return false;
+      if (!pass_on(piece)) return Trouble{};
     whole = inflater->good();
   } else if (entry && !pass_on(entry->packed)) {
-    return false;
+    return Trouble{};
   }
-  if (whole && checksum == entry->checksum) return true;
-  why = fmt::format("'{}' in it cannot be read", stl::shortened(name));
-  return false;
+  if (whole && checksum == entry->checksum) return {};
+  return trouble("'{}' in it cannot be read", stl::shortened(name));
 }
 
 }  // namespace s7200::tools

@@ -8,19 +8,21 @@
 #include <string>
 #include <string_view>
 
+#include "interpreter/base/result.hpp"
+
 namespace s7200::tools {
 
 class Zip {
  public:
-  /// Opens an archive; `bytes` must live as long as it. Returns nothing and sets `why` if they have no directory of an
+  /// Opens an archive; `bytes` must live as long as it. Trouble if they have no directory of an
   /// archive.
-  static std::optional<Zip> open(std::string_view bytes, std::string& why);
+  static Result<Zip> open(std::string_view bytes);
 
   bool has(std::string_view name) const { return entries_.find(name) != entries_.end(); }
 
-  /// Hands a file to `tell` piece by piece, until that returns false. Returns false if it did, and false with `why` set if
+  /// Hands a file to `tell` piece by piece, until that returns false. Trouble with nothing to say if it did, and if
   /// the file is damaged, encrypted or compressed in another way.
-  bool read(std::string_view name, const std::function<bool(std::string_view piece)>& tell, std::string& why) const;
+  Result<> read(std::string_view name, const std::function<bool(std::string_view piece)>& tell) const;
 
  private:
   struct Entry {

@@ -7,6 +7,7 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/ppi_frame.hpp"
+#include "interpreter/base/result.hpp"
 #include "interpreter/model/s7_pdu.hpp"
 #include "interpreter/program/operands/address.hpp"
 #include "serial_sim/line/frame.hpp"
@@ -120,16 +121,15 @@ struct Pdu {
   std::uint8_t function() const { return parameters.empty() ? std::uint8_t{0} : parameters[0]; }
 };
 
-/// Returns nothing and sets `why` if its lengths are wrong.
-std::optional<Pdu> pdu_of(Data bytes, std::string& why) {
+/// Trouble if its lengths are wrong.
+Result<Pdu> pdu_of(Data bytes) {
   if (bytes.size() < s7::kRequestHead || bytes[0] != s7::kProtocol)
-    return why = fmt::format("{} bytes that are not of S7", bytes.size()), std::nullopt;
+    return trouble("{} bytes that are not of S7", bytes.size());
   Pdu pdu{.kind = bytes[1], .number = load16(&bytes[4])};
   const bool answer = pdu.kind == s7::kAnswer;
   const std::size_t head = answer ? s7::kAnswerHead : s7::kRequestHead, parameters = load16(&bytes[6]);
-  if (bytes.size() < head) return why = "an answer without its error code", std::nullopt;
-  if (bytes.size() != head + parameters + load16(&bytes[8]))
-    return why = "its lengths do not fit what it carries", std::nullopt;
+  if (bytes.size() < head) return Trouble{"an answer without its error code"};
+  if (bytes.size() != head + parameters + load16(&bytes[8])) return Trouble{"its lengths do not fit what it carries"};
   if (answer) pdu.error = load16(&bytes[10]);
   pdu.parameters = bytes.subspan(head, parameters);
   pdu.data = bytes.subspan(head + parameters);
@@ -405,8 +405,8 @@ class PpiReader final : public FrameReader {
   }
 
   std::string text_of(const ppi::Body& body, bool request, std::string& wrong) {
-    const auto pdu = pdu_of(body.data, wrong);
-    if (!pdu) return {};
+    const auto pdu = pdu_of(body.data);
+    if (!pdu) return wrong = pdu.why(), "";
     if (request) {
       const bool names = pdu->kind == s7::kRequest && (pdu->function() == s7::kRead || pdu->function() == s7::kWrite);
       jobs_[{body.destination, body.source}] = {pdu->number,

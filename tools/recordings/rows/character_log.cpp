@@ -131,7 +131,7 @@ bool looks_like_character_log(std::string_view bytes) {
   return shown > in_hex;
 }
 
-std::optional<LineRecording> read_character_log(std::string_view bytes, const ReadingChoices& choices, std::string&) {
+Result<LineRecording> read_character_log(std::string_view bytes, const ReadingChoices& choices) {
   LineRecording recording;
   LeftOut left_out;
   DayCounter days;

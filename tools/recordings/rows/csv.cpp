@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/json/base64.hpp"
@@ -283,14 +284,14 @@ constexpr Notation kBase64{"base64", [](std::string_view cell) -> std::optional<
                              return bytes && !bytes->empty() ? std::move(bytes) : std::nullopt;
                            }};
 
-/// The notation of the bytes below the names. Null with `why` set if they have none.
+/// The notation of the bytes below the names.
 struct ColumnNotation {
   const Notation* notation = nullptr;
   bool characters = false;          ///< each row has one
   const Notation* other = nullptr;  ///< the bytes may be in this as well; the protocol tells
 };
-ColumnNotation notation_of(TableRows rows, const Columns& columns, std::string& why) {
-  if (columns.base64) return {.notation = &kBase64};
+Result<ColumnNotation> notation_of(TableRows rows, const Columns& columns) {
+  if (columns.base64) return ColumnNotation{.notation = &kBase64};
   NotationFinder finder;
   std::vector<std::string> fields;
   std::string joined;
@@ -301,9 +302,10 @@ ColumnNotation notation_of(TableRows rows, const Columns& columns, std::string& 
         if (const std::string_view cell = content_of(cell_of(fields, *column, columns, joined), columns); !cell.empty())
           finder.take(without_error(cell).cell, row->number);
   }
-  const Notation* const found = finder.found(why);
-  if (found == nullptr) return {};
-  return {.notation = found, .characters = columns.time && finder.are_characters(*found), .other = finder.other(*found)};
+  const auto found = finder.found();
+  if (!found) return found.trouble();
+  return ColumnNotation{
+      .notation = &*found, .characters = columns.time && finder.are_characters(*found), .other = finder.other(*found)};
 }
 
 }  // namespace
@@ -324,12 +326,13 @@ bool is_table_without_bytes(std::string_view bytes) {
   return columns.time && !columns.data && !columns.sent && !cells_below(rows, columns).empty();
 }
 
-std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
+Result<LineRecording> read_csv(std::string_view bytes, const ReadingChoices& choices) {
   LineRecording recording;
   TableRows rows(bytes, choices.stop);
   const Columns columns = take_columns(rows);
-  const auto [notation, characters, other] = notation_of(rows, columns, why);
-  if (notation == nullptr) return {};
+  const auto found = notation_of(rows, columns);
+  if (!found) return found.trouble();
+  const auto [notation, characters, other] = *found;
   DayCounter days;
   CharacterJoiner joiner(choices);
   std::vector<std::string> fields;
@@ -347,27 +350,22 @@ std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoic
     const std::string_view cell = content_of(data_column ? cell_of(fields, *data_column, columns, joined) : "", columns);
     const WrittenCharacter written = without_error(cell);
     auto data = notation->read(written.cell);
-    if (time && !time->of_day && !columns.unknown_unit.empty()) {
-      why = fmt::format("line 1: '{}' names no unit; write [s], [ms], [us] or [ns]", stl::shortened(columns.unknown_unit));
-      return {};
-    }
+    if (time && !time->of_day && !columns.unknown_unit.empty())
+      return trouble("line 1: '{}' names no unit; write [s], [ms], [us] or [ns]", stl::shortened(columns.unknown_unit));
     const bool no_time = columns.time && !time;
     if (!no_time && cell.empty()) {  // sniffers note reads that brought nothing
       left_out.without_bytes(row->number);
       continue;
     }
-    if (!columns.of_exchanges && columns.sent && !is_received && !stl::trim(field(columns.received)).empty()) {
-      why = fmt::format("line {}: bytes in both directions; write them in two lines", row->number);
-      return {};
-    }
+    if (!columns.of_exchanges && columns.sent && !is_received && !stl::trim(field(columns.received)).empty())
+      return trouble("line {}: bytes in both directions; write them in two lines", row->number);
     const std::string_view other_cell =  // of a row with a request and its answer
         columns.sent && !is_received ? content_of(stl::trim(field(columns.received)), columns) : std::string_view();
     auto answer = other_cell.empty() ? std::nullopt : notation->read(other_cell);
     if (no_time || !data || (!other_cell.empty() && !answer)) {
       const std::string_view wrong = no_time ? field(columns.time) : data ? other_cell : cell;
-      why = fmt::format("line {}: '{}' is not {}", row->number, stl::shortened(wrong),
-                        no_time ? "a time" : fmt::format("bytes in {}", notation->name));
-      return {};
+      return trouble("line {}: '{}' is not {}", row->number, stl::shortened(wrong),
+                     no_time ? "a time" : fmt::format("bytes in {}", notation->name));
     }
     RecordedFrame frame{.at = time ? std::optional(days.since_first_midnight(*time)) : std::nullopt,
                         .direction = !columns.sent ? direction_in_cell(field(columns.direction))

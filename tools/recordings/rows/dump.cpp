@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/rows/lines.hpp"
@@ -170,14 +171,11 @@ bool looks_like_dump(std::string_view bytes) {
   return dump.is_sure();
 }
 
-std::optional<LineRecording> read_dump(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
+Result<LineRecording> read_dump(std::string_view bytes, const ReadingChoices& choices) {
   DumpFrames dump;
   std::size_t number = 0;
   for (const std::string_view line : Lines(bytes, choices.stop))
-    if (!dump.take(line, ++number)) {
-      why = fmt::format("line {}: it does not go on from the row of the dump above it", number);
-      return {};
-    }
+    if (!dump.take(line, ++number)) return trouble("line {}: it does not go on from the row of the dump above it", number);
   return LineRecording{.frames = std::move(dump.frames)};
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/json/json.hpp"
@@ -45,9 +46,9 @@ std::size_t begin_of_object(std::string_view line) {
   return std::string_view::npos;
 }
 
-/// The length of an object up to its last brace; 0 if it does not end within its line, or not far below it, with `why` set
+/// The length of an object up to its last brace; 0 if it does not end within its line, or not far below it. Trouble
 /// if it is too deep. A string of JSON ends in its line.
-std::size_t length_of_object(std::string_view text, std::string& why) {
+Result<std::size_t> length_of_object(std::string_view text) {
   constexpr std::size_t kFarthest = std::size_t{1} << 16;
   std::size_t depth = 0;
   bool quoted = false, in_first_line = true;
@@ -65,10 +66,7 @@ std::size_t length_of_object(std::string_view text, std::string& why) {
     else if (!quoted && (c == '}' || c == ']'))
       --depth;
     if (depth == 0) return i + 1;
-    if (depth > kLimits.depth) {
-      why = fmt::format("it is JSON of more than {} maps and lists inside each other", kLimits.depth);
-      return 0;
-    }
+    if (depth > kLimits.depth) return trouble("it is JSON of more than {} maps and lists inside each other", kLimits.depth);
   }
   return 0;
 }
@@ -87,7 +85,9 @@ class Pieces {
     Piece piece{.text = stl::trim(line), .number = number_};
     std::size_t end = line.size();
     if (begin != std::string_view::npos) {
-      const std::size_t length = length_of_object(rest_.substr(begin), piece.why);
+      const auto object = length_of_object(rest_.substr(begin));
+      piece.why = object.why();
+      const std::size_t length = object.value_or(0);
       const std::string_view after = first_line(rest_.substr(begin + length));
       const std::size_t more = std::min(after.find_first_not_of(kBetween), after.size());
       const bool ends = length > 0 && (more == after.size() || begin_of_object(after.substr(more)) == 0);
@@ -196,8 +196,7 @@ std::string_view number_too_large(std::string_view text) {
 /// The records of a piece; none if it cannot be read.
 std::vector<NamedFields> records_of(const Piece& piece) {
   std::vector<NamedFields> records;
-  std::string why;
-  const auto object = piece.kind == Piece::Kind::Object ? parse_json(piece.text, why, kLimits) : std::nullopt;
+  const auto object = piece.kind == Piece::Kind::Object ? parse_json(piece.text, kLimits) : std::nullopt;
   if (object) add_records(*object, records);
   return records;
 }
@@ -233,7 +232,7 @@ bool looks_like_json_lines(std::string_view bytes) {
          count_records(bytes, has_base64) > 0;
 }
 
-std::optional<LineRecording> read_json_lines(std::string_view bytes, const ReadingChoices& choices, std::string&) {
+Result<LineRecording> read_json_lines(std::string_view bytes, const ReadingChoices& choices) {
   NamedFieldsReader reader;
   if (count_records(bytes, has_characters) > 0)
     reader.take_characters();

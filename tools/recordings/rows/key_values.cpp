@@ -78,7 +78,7 @@ bool looks_like_key_values(std::string_view bytes) {
                             count_lines_that(bytes, has_base64) > 0);
 }
 
-std::optional<LineRecording> read_key_values(std::string_view bytes, const ReadingChoices& choices, std::string&) {
+Result<LineRecording> read_key_values(std::string_view bytes, const ReadingChoices& choices) {
   NamedFieldsReader reader;
   if (count_lines_that(bytes, has_characters) > 0)
     reader.take_characters();

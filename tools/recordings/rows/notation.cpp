@@ -184,20 +184,18 @@ bool NotationFinder::are_characters(const Notation& notation) const {
   return std::ranges::find(candidates_, &notation, &Candidate::notation)->characters;
 }
 
-const Notation* NotationFinder::found(std::string& why) const {
-  if (cells_ > 1 && only_digits_) {
-    why = fmt::format("line {}: '{}' may be a number or a character; write the column in hex", first_line_, first_);
-    return nullptr;
-  }
+Result<const Notation&> NotationFinder::found() const {
+  if (cells_ > 1 && only_digits_)
+    return trouble("line {}: '{}' may be a number or a character; write the column in hex", first_line_, first_);
   // If several notations read as many cells, the message names hex, which most tools write.
   const auto nearest = std::ranges::max_element(
       candidates_, {}, [](const Candidate& each) { return std::pair(each.read, each.notation->name == kHex.name); });
   const auto all = std::ranges::find(candidates_, cells_, &Candidate::read);
-  if (all != candidates_.end()) return all->notation;
-  why = fmt::format("line {}: '{}' is not bytes in {}", nearest->line, stl::shortened(nearest->wrong),
-                    nearest->notation->name);
+  if (all != candidates_.end()) return *all->notation;
+  std::string why = fmt::format("line {}: '{}' is not bytes in {}", nearest->line, stl::shortened(nearest->wrong),
+                                nearest->notation->name);
   if (is_rounded_number(nearest->wrong)) why += ": a spreadsheet has rounded it; give it the column as text, and save again";
-  return nullptr;
+  return Trouble{std::move(why)};
 }
 
 }  // namespace s7200::tools

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/base/result.hpp"
 
 namespace s7200::tools {
 
@@ -36,9 +37,9 @@ class NotationFinder {
   /// A cell that is not empty. `line`: its number, for the message.
   void take(std::string_view cell, std::size_t line);
 
-  /// The notation found. Null with a message in `why`, `line 3: '256' is not bytes in decimal`, if no notation reads all
+  /// The notation found. Trouble, `line 3: '256' is not bytes in decimal`, if no notation reads all
   /// cells, or several do.
-  const Notation* found(std::string& why) const;
+  Result<const Notation&> found() const;
 
   /// The notation that reads all cells as well as decimal numbers do; null if there is none.
   const Notation* other(const Notation& found) const;

@@ -540,7 +540,7 @@ class LogReader {
 
 }  // namespace
 
-std::optional<LineRecording> read_text_log(std::string_view file, const ReadingChoices& choices, std::string&) {
+Result<LineRecording> read_text_log(std::string_view file, const ReadingChoices& choices) {
   const auto plain = in_plain_hex(file);
   const std::string_view bytes = plain ? std::string_view(*plain) : file;
   constexpr std::size_t kShortestRow = 16;  // of most logs
@@ -555,8 +555,8 @@ std::optional<LineRecording> read_text_log(std::string_view file, const ReadingC
     }
     return reader.finish();
   };
-  auto of_characters = read(true);  // only what is joined is kept of a long log
-  return of_characters ? std::move(of_characters) : read(false);
+  if (auto of_characters = read(true)) return *std::move(of_characters);  // only what is joined is kept of a long log
+  return *read(false);
 }
 
 }  // namespace s7200::tools

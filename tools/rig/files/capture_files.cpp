@@ -51,28 +51,29 @@ std::string why_no_kind(const std::string& path) {
 
 }  // namespace
 
-bool CaptureFiles::claim(WrittenFiles& files, const std::vector<std::string>& paths, std::string& why) {
+Result<> CaptureFiles::claim(WrittenFiles& files, const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     const Kind* const kind = kind_of(path);
-    if (!kind) return why = why_no_kind(path), false;
+    if (!kind) return Trouble{why_no_kind(path)};
     Capture& capture = captures_.emplace_back();
     capture.make = kind->make;
-    if (!capture.file.claim(files, "--capture", path, {kind->name, kind->beginning}, why)) return false;
+    if (const auto done = capture.file.claim(files, "--capture", path, {kind->name, kind->beginning}); !done)
+      return done.trouble();
   }
-  return true;
+  return {};
 }
 
-bool CaptureFiles::open(std::string& why) {
+Result<> CaptureFiles::open() {
   for (Capture& capture : captures_) {
-    std::ostream* out = capture.file.open(why);
-    if (!out) return false;
+    const auto out = capture.file.open();
+    if (!out) return out.trouble();
     capture.sink = capture.make(*out);
   }
-  return true;
+  return {};
 }
 
-bool CaptureFiles::put(std::string& why) {
-  return std::ranges::all_of(captures_, [&](Capture& capture) { return capture.file.put(why); });
+Result<> CaptureFiles::put() {
+  return with_each(captures_, [](Capture& capture) { return capture.file.put(); });
 }
 
 void CaptureFiles::watch(serial::ResponderStation& plc, Time from) {
@@ -91,8 +92,7 @@ void CaptureFiles::add_sizes(std::vector<RecordSize>& sizes) const {
 void CaptureFiles::close(std::vector<std::string>& problems) {
   finish();
   for (Capture& capture : captures_) {
-    std::string why;
-    if (!capture.file.close(why)) problems.push_back(why);
+    if (const auto done = capture.file.close(); !done) problems.push_back(done.why());
   }
   captures_.clear();
 }

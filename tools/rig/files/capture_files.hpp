@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "serial_sim/line/line_settings.hpp"
 #include "serial_sim/system/plc.hpp"
 #include "serial_sim/system/stations.hpp"
@@ -17,10 +18,10 @@ namespace s7200::tools {
 /// the simulation has been restored are not captured again.
 class CaptureFiles final : private serial::WireSink {
  public:
-  /// Return false and set `why` if a capture cannot be written as it was asked for.
-  bool claim(WrittenFiles& files, const std::vector<std::string>& paths, std::string& why);
-  bool open(std::string& why);
-  bool put(std::string& why);
+  /// Trouble if a capture cannot be written as it was asked for.
+  Result<> claim(WrittenFiles& files, const std::vector<std::string>& paths);
+  Result<> open();
+  Result<> put();
 
   /// Writes the captures so far to their files.
   void flush();

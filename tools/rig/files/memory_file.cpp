@@ -7,24 +7,22 @@
 
 namespace s7200::tools {
 
-bool MemoryFile::claim(WrittenFiles& files, const MemorySettings& settings, std::string& why) {
+Result<> MemoryFile::claim(WrittenFiles& files, const MemorySettings& settings) {
   settings_ = settings;
-  if (settings.path.empty()) return true;
-  destination_ =
-      files.claim("--memory", settings.path, {"a memory", memory_beginning()}, Replace::Judged, why);  // read() judges it
-  return destination_.has_value();
+  if (settings.path.empty()) return {};
+  auto claimed =
+      files.claim("--memory", settings.path, {"a memory", memory_beginning()}, Replace::Judged);  // read() judges it
+  if (!claimed) return claimed.trouble();
+  destination_ = *std::move(claimed);
+  return {};
 }
 
-bool MemoryFile::read(const CpuModel& model, std::string& why) {
-  if (settings_.path.empty()) return true;
+Result<> MemoryFile::read(const CpuModel& model) {
+  if (settings_.path.empty()) return {};
   if (destination_->replaces_content()) {
-    std::string reason;
-    const auto json = read_text(settings_.path, reason);
-    if (json) memory_ = memory_from_json(*json, model, reason);
-    if (!memory_) {
-      why = fmt::format("cannot take --memory from {}: {}; it is left alone", settings_.path, reason);
-      return false;
-    }
+    auto memory = read_text(settings_.path).and_then([&](const std::string& json) { return memory_from_json(json, model); });
+    if (!memory) return trouble("cannot take --memory from {}: {}; it is left alone", settings_.path, memory.why());
+    memory_ = *std::move(memory);
   } else if (settings_.ram_lost) {
     memory_.emplace();
   }
@@ -32,12 +30,12 @@ bool MemoryFile::read(const CpuModel& model, std::string& why) {
     memory_->ram_lost = settings_.ram_lost;
     memory_->power_off = settings_.power_off;
   }
-  return true;
+  return {};
 }
 
-bool MemoryFile::write(const Cpu& cpu, std::string& why) const {
-  return settings_.path.empty() ||
-         write_result(*destination_, memory_to_json(cpu.retentive_memory(), *cpu.program().model), why);
+Result<> MemoryFile::write(const Cpu& cpu) const {
+  if (settings_.path.empty()) return {};
+  return write_result(*destination_, memory_to_json(cpu.retentive_memory(), *cpu.program().model));
 }
 
 }  // namespace s7200::tools

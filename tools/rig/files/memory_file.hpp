@@ -4,26 +4,27 @@
 #include <optional>
 #include <string>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/cpu/cpu.hpp"
 #include "tools/host/files/written_files.hpp"
 #include "tools/plan/plc_settings.hpp"
 
 namespace s7200::tools {
 
-/// A file of retentive memory. Each function returns false and sets `why` if the file cannot be used.
+/// A file of retentive memory. Each function brings trouble if the file cannot be used.
 class MemoryFile {
  public:
   /// The file will be written at the end.
-  bool claim(WrittenFiles& files, const MemorySettings& settings, std::string& why);
+  Result<> claim(WrittenFiles& files, const MemorySettings& settings);
 
   /// Reads the file, if one was named, and exists, and is not empty.
-  bool read(const CpuModel& model, std::string& why);
+  Result<> read(const CpuModel& model);
 
   /// The memory with which the CPU powers up; null without a file.
   const RetentiveMemory* memory() const { return memory_ ? &*memory_ : nullptr; }
 
   /// Writes the file, if one was named.
-  bool write(const Cpu& cpu, std::string& why) const;
+  Result<> write(const Cpu& cpu) const;
 
  private:
   MemorySettings settings_;

@@ -17,7 +17,7 @@ namespace s7200::tools {
 PlcFiles::PlcFiles(const PlcPlan& plan, const serial::Plc& plc)
     : program_(plan.program), settings_(plan.settings), plc_(plc) {}
 
-bool PlcFiles::claim(WrittenFiles& files, std::string& why) {
+Result<> PlcFiles::claim(WrittenFiles& files) {
   files.reads(program_->source.name);
   for (const stl::FurtherFile& file : program_->source.further_files) files.reads(file.name);
   const TraceFormat& format = trace_format_of(settings_.trace);
@@ -29,7 +29,8 @@ bool PlcFiles::claim(WrittenFiles& files, std::string& why) {
     trace_ = made.get();
     return made;
   };
-  if (why = settings_.trace.empty() ? "" : why_not_signals(format, settings_.signals); !why.empty()) return false;
+  if (std::string why = settings_.trace.empty() ? "" : why_not_signals(format, settings_.signals); !why.empty())
+    return Trouble{std::move(why)};
   const bool waves = stl::lower_case(file_path(settings_.output).extension().string()) == ".vcd";
   const FileKind rows{"a record of outputs", fmt::format("{}\n", OutputRecord::kFirstLine)};
   const FileKind dump{"a dump of outputs", std::string(OutputWaves::kBeginning)};
@@ -37,15 +38,16 @@ bool PlcFiles::claim(WrittenFiles& files, std::string& why) {
     if (waves) return std::make_unique<OutputWaves>(out, *program_->model);
     return std::make_unique<OutputRecord>(out);
   };
-  return memory_.claim(files, settings_.memory, why) &&
-         traces_.claim(files, "--trace", settings_.trace, {"a trace", std::string(format.first_line)}, trace, why) &&
-         traces_.claim(files, "--output", settings_.output, waves ? dump : rows, output, why);
+  const FileKind record{"a trace", std::string(format.first_line)};
+  return memory_.claim(files, settings_.memory)
+      .and_then([&] { return traces_.claim(files, "--trace", settings_.trace, record, trace); })
+      .and_then([&] { return traces_.claim(files, "--output", settings_.output, waves ? dump : rows, output); });
 }
 
-bool PlcFiles::read_memory(std::optional<RetentiveMemory>& kept, std::string& why) {
-  if (!memory_.read(*program_->model, why)) return false;
+Result<> PlcFiles::read_memory(std::optional<RetentiveMemory>& kept) {
+  if (const auto done = memory_.read(*program_->model); !done) return done.trouble();
   if (!kept && memory_.memory()) kept = *memory_.memory();
-  return true;
+  return {};
 }
 
 serial::WireSink* PlcFiles::levels_at(std::uint8_t port) {
@@ -66,8 +68,7 @@ void PlcFiles::Levels::edge(serial::Wire wire, Time at, bool mark, int) {
 void PlcFiles::Levels::settled(Time until, const SerialFormat&) { trace.settled(port, until); }
 
 void PlcFiles::keep_memory(std::vector<std::string>& problems) const {
-  std::string why;
-  if (!memory_.write(plc_.cpu(), why)) problems.push_back(why);
+  if (const auto done = memory_.write(plc_.cpu()); !done) problems.push_back(done.why());
 }
 
 }  // namespace s7200::tools

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/trace/text/text_trace.hpp"
 #include "serial_sim/line/wire_tap.hpp"
 #include "serial_sim/system/plc.hpp"
@@ -17,21 +18,21 @@
 
 namespace s7200::tools {
 
-/// claim(), read_memory(), open(), put(), and after the run close() and keep_memory(). What can fail returns false and sets
-/// `why`, or adds to `problems`.
+/// claim(), read_memory(), open(), put(), and after the run close() and keep_memory(). What can fail brings trouble, or adds
+/// to `problems`.
 class PlcFiles {
  public:
   /// Of a PLC that has not had power yet.
   PlcFiles(const PlcPlan& plan, const serial::Plc& plc);
 
-  bool claim(WrittenFiles& files, std::string& why);
+  Result<> claim(WrittenFiles& files);
 
   /// Reads the memory with which the PLC powers up first; nothing if there is none.
-  bool read_memory(std::optional<RetentiveMemory>& kept, std::string& why);
+  Result<> read_memory(std::optional<RetentiveMemory>& kept);
 
   /// The records go on to be told what the CPU does by `sinks`.
-  bool open(FanOut& sinks, std::string& why) { return traces_.open(sinks, why); }
-  bool put(std::string& why) { return traces_.put(why); }
+  Result<> open(FanOut& sinks) { return traces_.open(sinks); }
+  Result<> put() { return traces_.put(); }
 
   /// What is told of the wires at a port for the trace; null if the trace does not show its levels.
   serial::WireSink* levels_at(std::uint8_t port);

@@ -35,14 +35,12 @@ RecordedRig::RecordedRig(SystemPlan plan, const RigSurroundings& surroundings)
 std::unique_ptr<RecordedRig> RecordedRig::assemble(SystemPlan plan, const RigSurroundings& surroundings,
                                                    std::vector<std::string>& problems) {
   std::unique_ptr<RecordedRig> rig(new RecordedRig(std::move(plan), surroundings));
-  std::string why;
-  bool good = rig->claim_files(surroundings, why) && rig->read_memories(why);
-  if (good) {
+  const auto done = rig->claim_files(surroundings).and_then([&] { return rig->read_memories(); }).and_then([&] {
     if (surroundings.begun) surroundings.begun();
-    good = rig->open_records(why);
-  }
-  if (!good) {
-    if (!why.empty()) problems.push_back(why);
+    return rig->open_records();
+  });
+  if (!done) {
+    if (!done.why().empty()) problems.push_back(done.why());
     return nullptr;
   }
   rig->watch_lines();
@@ -50,31 +48,33 @@ std::unique_ptr<RecordedRig> RecordedRig::assemble(SystemPlan plan, const RigSur
   return rig;
 }
 
-bool RecordedRig::claim_files(const RigSurroundings& surroundings, std::string& why) {
+Result<> RecordedRig::claim_files(const RigSurroundings& surroundings) {
   if (!surroundings.path.empty()) written.reads(surroundings.path);
   for (const PlcPlan& plc : plan_.plcs) written.reads(plc.settings.input);
   written.links("--pty", surroundings.link);
   for (const BridgePlan& bridge : plan_.bridges)
     if (bridge.kind == BridgeKind::Pty) written.links("a bridge", bridge.where);
   auto line = plan_.lines.begin();
-  if (trace && !trace->claim(written, surroundings.trace, why)) return false;
-  return std::ranges::all_of(plcs, [&](PlcFiles& plc) { return plc.claim(written, why); }) &&
-         std::ranges::all_of(captures, [&](CaptureFiles& each) { return each.claim(written, (line++)->captures, why); });
+  const auto claimed = trace ? trace->claim(written, surroundings.trace) : Result<>();
+  return claimed.and_then([&] { return with_each(plcs, [&](PlcFiles& plc) { return plc.claim(written); }); }).and_then([&] {
+    return with_each(captures, [&](CaptureFiles& each) { return each.claim(written, (line++)->captures); });
+  });
 }
 
-bool RecordedRig::read_memories(std::string& why) {
+Result<> RecordedRig::read_memories() {
   auto plan = plan_.plcs.begin();
-  return std::ranges::all_of(plcs, [&](PlcFiles& plc) { return plc.read_memory((plan++)->kept, why); });
+  return with_each(plcs, [&](PlcFiles& plc) { return plc.read_memory((plan++)->kept); });
 }
 
-bool RecordedRig::open_records(std::string& why) {
-  if (trace && !(trace->open(why) && trace->put(why))) return false;
+Result<> RecordedRig::open_records() {
+  if (trace)
+    if (const auto done = trace->open().and_then([&] { return trace->put(); }); !done) return done;
   for (std::size_t plc = 0; trace && plc < plcs.size(); ++plc) sinks(plc).add(&trace->station(plc));
   std::size_t number = 0;
-  return std::ranges::all_of(plcs, [&](PlcFiles& plc) { return plc.open(sinks(number++), why); }) &&
-         std::ranges::all_of(captures, [&](CaptureFiles& each) { return each.open(why); }) &&
-         std::ranges::all_of(plcs, [&](PlcFiles& plc) { return plc.put(why); }) &&
-         std::ranges::all_of(captures, [&](CaptureFiles& each) { return each.put(why); });
+  return with_each(plcs, [&](PlcFiles& plc) { return plc.open(sinks(number++)); })
+      .and_then([&] { return with_each(captures, [](CaptureFiles& each) { return each.open(); }); })
+      .and_then([&] { return with_each(plcs, [](PlcFiles& plc) { return plc.put(); }); })
+      .and_then([&] { return with_each(captures, [](CaptureFiles& each) { return each.put(); }); });
 }
 
 /// Captures each line at its first PLC, an S7-200, or one of another make if there is none; and shows traces their ports.
@@ -132,7 +132,6 @@ std::vector<RecordSize> RecordedRig::record_sizes() const {
 
 std::vector<std::string> RecordedRig::finish() {
   std::vector<std::string> problems;
-  std::string why;
   std::size_t number = 0;
   for (PlcFiles& each : plcs) {
     for (const std::string& open : open_messages(plc(number))) {
@@ -141,7 +140,8 @@ std::vector<std::string> RecordedRig::finish() {
     }
     ++number;
   }
-  if (trace && !trace->close(why)) problems.push_back(why);
+  if (trace)
+    if (const auto done = trace->close(); !done) problems.push_back(done.why());
   for (PlcFiles& plc : plcs) plc.close(problems);
   for (CaptureFiles& each : captures) each.close(problems);
   number = 0;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "serial_sim/line/wire_fan_out.hpp"
 #include "tools/host/files/written_files.hpp"
 #include "tools/rig/files/capture_files.hpp"
@@ -62,9 +63,9 @@ class RecordedRig final : private RigFiles, public Rig {
 
  private:
   RecordedRig(SystemPlan plan, const RigSurroundings& surroundings);
-  bool claim_files(const RigSurroundings& surroundings, std::string& why);
-  bool read_memories(std::string& why);
-  bool open_records(std::string& why);
+  Result<> claim_files(const RigSurroundings& surroundings);
+  Result<> read_memories();
+  Result<> open_records();
   void watch_lines();
   void watch_ports(std::size_t number, PlcFiles& files);
   void listen();

@@ -30,31 +30,30 @@ SystemTrace::SystemTrace(const SystemPlan& plan, const serial::System& system, T
 
 SystemTrace::~SystemTrace() = default;
 
-bool SystemTrace::claim(WrittenFiles& files, const std::string& path, std::string& why) {
+Result<> SystemTrace::claim(WrittenFiles& files, const std::string& path) {
   format_ = &trace_format_of(path);
-  if (!format_->note) {
-    why = fmt::format("--trace {}: a trace of a whole system is text or .jsonl; the key 'trace' of one PLC takes the others",
-                      path);
-    return false;
-  }
-  return file_.claim(files, "--trace", path, {"a trace of a system", std::string(format_->first_line_of_system)}, why);
+  if (!format_->note)
+    return trouble("--trace {}: a trace of a whole system is text or .jsonl; the key 'trace' of one PLC takes the others",
+                   path);
+  return file_.claim(files, "--trace", path, {"a trace of a system", std::string(format_->first_line_of_system)});
 }
 
-bool SystemTrace::open(std::string& why) {
-  out_ = file_.open(why);
-  if (!out_) return false;
+Result<> SystemTrace::open() {
+  const auto out = file_.open();
+  if (!out) return out.trouble();
+  out_ = &*out;
   *out_ << format_->first_line_of_system;
   for (std::size_t plc = 0; plc < plan_.plcs.size(); ++plc) {
     const auto take = [this, plc](Time at, std::string_view line) { add(plan_.plcs[plc].name, at, line); };
     stations_.push_back(format_->writer(
         {.take = take, .program = plan_.plcs[plc].program, .detail = detail_, .station = plan_.plcs[plc].name}));
   }
-  return true;
+  return {};
 }
 
-bool SystemTrace::close(std::string& why) {
+Result<> SystemTrace::close() {
   write_until(kNever);
-  return file_.close(why);
+  return file_.close();
 }
 
 void SystemTrace::flush() {

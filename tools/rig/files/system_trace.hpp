@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "serial_sim/system/system.hpp"
 #include "tools/host/files/record_file.hpp"
 #include "tools/plan/system_plan.hpp"
@@ -15,7 +16,7 @@
 
 namespace s7200::tools {
 
-/// claim(), open(), put() when the first line is written, close(). Each returns false and sets `why` if the file cannot be
+/// claim(), open(), put() when the first line is written, close(). Each brings trouble if the file cannot be
 /// written. CPUs run ahead of each other: lines wait until no other one can come before them.
 class SystemTrace final {
  public:
@@ -23,10 +24,10 @@ class SystemTrace final {
   SystemTrace(const SystemPlan& plan, const serial::System& system, TraceDetail detail);
   ~SystemTrace();
 
-  bool claim(WrittenFiles& files, const std::string& path, std::string& why);
-  bool open(std::string& why);
-  bool put(std::string& why) { return file_.put(why); }
-  bool close(std::string& why);
+  Result<> claim(WrittenFiles& files, const std::string& path);
+  Result<> open();
+  Result<> put() { return file_.put(); }
+  Result<> close();
 
   /// Writes the lines before which no other line can come any more.
   void flush();

@@ -5,26 +5,25 @@
 
 namespace s7200::tools {
 
-bool TraceFiles::claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind, Make make,
-                       std::string& why) {
-  if (path.empty()) return true;
+Result<> TraceFiles::claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind, Make make) {
+  if (path.empty()) return {};
   Record& record = records_.emplace_back();
   record.make = std::move(make);
-  return record.file.claim(files, option, path, std::move(kind), why);
+  return record.file.claim(files, option, path, std::move(kind));
 }
 
-bool TraceFiles::open(FanOut& sinks, std::string& why) {
+Result<> TraceFiles::open(FanOut& sinks) {
   for (Record& record : records_) {
-    std::ostream* const out = record.file.open(why);
-    if (!out) return false;
+    const auto out = record.file.open();
+    if (!out) return out.trouble();
     record.sink = record.make(*out);
     sinks.add(record.sink.get());
   }
-  return true;
+  return {};
 }
 
-bool TraceFiles::put(std::string& why) {
-  return std::ranges::all_of(records_, [&](Record& record) { return record.file.put(why); });
+Result<> TraceFiles::put() {
+  return with_each(records_, [](Record& record) { return record.file.put(); });
 }
 
 void TraceFiles::flush() {
@@ -38,8 +37,7 @@ void TraceFiles::add_sizes(std::vector<RecordSize>& sizes) const {
 
 void TraceFiles::close(std::vector<std::string>& problems) {
   for (Record& record : records_) {
-    std::string why;
-    if (!record.file.close(why)) problems.push_back(why);
+    if (const auto done = record.file.close(); !done) problems.push_back(done.why());
   }
 }
 

@@ -6,23 +6,23 @@
 #include <memory>
 #include <string>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/trace/fan_out.hpp"
 #include "tools/host/files/record_file.hpp"
 
 namespace s7200::tools {
 
-/// claim(), open(), put() when the first lines are written, close(). Each returns false and sets `why` if a file cannot be
+/// claim(), open(), put() when the first lines are written, close(). Each brings trouble if a file cannot be
 /// written.
 class TraceFiles {
  public:
   using Make = std::function<std::unique_ptr<TraceSink>(std::ostream&)>;
 
   /// Claims `path` for what `make` makes; an empty path is none. `kind` without its beginning is not recognised later.
-  bool claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind, Make make,
-             std::string& why);
+  Result<> claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind, Make make);
   /// The records are told what the CPU does by `sinks`.
-  bool open(FanOut& sinks, std::string& why);
-  bool put(std::string& why);
+  Result<> open(FanOut& sinks);
+  Result<> put();
 
   /// Writes the records so far to their files.
   void flush();

@@ -9,10 +9,9 @@ namespace {
 std::optional<Expected> text_expected(ValueReader& values, const YamlNode& map) {
   const auto written = text_inside(values, map);
   if (!written) return {};
-  std::string why;
-  auto pattern = parse_text_pattern(*written, why);
+  auto pattern = parse_text_pattern(*written);
   if (!pattern) {
-    values.wrong(map.items[0], why, R"(write for example {text: 'T=\?\?\r'})");
+    values.wrong(map.items[0], pattern.why(), R"(write for example {text: 'T=\?\?\r'})");
     return {};
   }
   return Expected{.kind = Expected::Kind::Frame, .frame = std::move(*pattern)};
@@ -40,11 +39,10 @@ std::optional<Expected> read_expected(ValueReader& values, const YamlNode& node)
     values.wrong(node, fmt::format("'{}' is not an exception", stl::shortened(*written)), "write for example exception 2");
     return {};
   }
-  std::string why;
-  auto pattern = parse_pattern(*written, why);
+  auto pattern = parse_pattern(*written);
   if (!pattern) {
     values.wrong(
-        node, fmt::format("'{}' is not an answer: {}", stl::shortened(*written), why),
+        node, fmt::format("'{}' is not an answer: {}", stl::shortened(*written), pattern.why()),
         word == "none" || word == "nothing"
             ? "write silence"
             : "write hex such as 01 03 .. .., {text: 'OK\\r'}, any, silence, echo, accepted, refused, exception 2, or "

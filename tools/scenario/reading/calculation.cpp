@@ -179,28 +179,26 @@ class Calculation {
 
 }  // namespace
 
-std::optional<std::string> evaluate(std::string_view expression, const Parameters& parameters, std::string& why) {
+Result<std::string> evaluate(std::string_view expression, const Parameters& parameters) {
   try {
     return Calculation(expression, parameters).result();
   } catch (const Wrong& wrong) {
-    why = wrong.why;
-    return {};
+    return Trouble{wrong.why};
   }
 }
 
-std::optional<bool> holds(std::string_view expression, const Parameters& parameters, std::string& why) {
+Result<bool> holds(std::string_view expression, const Parameters& parameters) {
   try {
     const std::string result = Calculation(expression, parameters).result();
     return !result.empty() && result != "0" && result != "no" && result != "false";
   } catch (const NoValue&) {
     return false;
   } catch (const Wrong& wrong) {
-    why = wrong.why;
-    return {};
+    return Trouble{wrong.why};
   }
 }
 
-std::optional<std::string> substitute(std::string_view text, const Parameters& parameters, std::string& why) {
+Result<std::string> substitute(std::string_view text, const Parameters& parameters) {
   if (text.size() > 3 && text.starts_with("${") && text.back() == '}' &&
       parameters.empty.contains(text.substr(2, text.size() - 3)))
     return std::string();
@@ -208,18 +206,13 @@ std::optional<std::string> substitute(std::string_view text, const Parameters& p
   for (;;) {
     const std::size_t begin = text.find("${");
     result += text.substr(0, begin);
-    if (result.size() > kLongestSubstitution) {
-      why = fmt::format("what is put in is longer than {} characters", kLongestSubstitution);
-      return {};
-    }
+    if (result.size() > kLongestSubstitution)
+      return trouble("what is put in is longer than {} characters", kLongestSubstitution);
     if (begin == std::string_view::npos) return result;
     const std::size_t end = text.find('}', begin);
-    if (end == std::string_view::npos) {
-      why = "the } of ${ is missing";
-      return {};
-    }
-    const auto value = evaluate(text.substr(begin + 2, end - begin - 2), parameters, why);
-    if (!value) return {};
+    if (end == std::string_view::npos) return Trouble{"the } of ${ is missing"};
+    const auto value = evaluate(text.substr(begin + 2, end - begin - 2), parameters);
+    if (!value) return value.trouble();
     result += *value;
     text.remove_prefix(end + 1);
   }

@@ -54,10 +54,9 @@ class Collector {
   }
 
   std::optional<std::string> text_of(const std::string& path) {
-    std::string why;
-    auto text = read_text(path, why);
-    if (!text) fail(fmt::format("cannot read {}: {}", path, why));
-    return text;
+    auto text = read_text(path);
+    if (!text) fail(fmt::format("cannot read {}: {}", path, text.why()));
+    return std::move(text).if_any();
   }
 
   /// Values for `${…}`, or the description of a slave.

@@ -56,9 +56,8 @@ class HeadReader {
     read_symbols(scenario);
     if (!scenario.cpu_named && (map.find("program") || map.find("with"))) find_cpu_of_program(scenario);
     if (const auto repair = values_.optional_text(map, "repair")) {
-      std::string why;
-      parse_repairs(*repair, why);
-      if (!why.empty()) values_.wrong(*map.find("repair"), why, "`s7200 check` names the slips of a listing that is known");
+      if (const auto repairs = parse_repairs(*repair); !repairs)
+        values_.wrong(*map.find("repair"), repairs.why(), "`s7200 check` names the slips of a listing that is known");
       scenario.repair = *repair;
     }
     if (const auto path = optional_path(map, "skip_without")) {
@@ -119,9 +118,8 @@ class HeadReader {
         values_.wrong(*one, key.key == "robust"
                                 ? "'robust' is of one program: a system is not run with other tables"
                                 : fmt::format("'{}' is of one program: a system file says that of each PLC", key.key));
-    std::string why;
-    const auto text = read_text(path, why);
-    if (!text) return values_.wrong(node, fmt::format("cannot read {}: {}", path, why));
+    const auto text = read_text(path);
+    if (!text) return values_.wrong(node, fmt::format("cannot read {}: {}", path, text.why()));
     SystemFile file = read_system(*text, path, host_files());
     if (!file.ok()) {
       const stl::Diagnostic& first = file.file.diagnostics.front();
@@ -136,11 +134,14 @@ class HeadReader {
     scenario.plan = std::make_shared<const SystemPlan>(std::move(file.plan));
   }
 
+  static std::string why_no_place(const Scenario& scenario, const std::string& on) {
+    return scenario.is_of_peers() ? find_line(*scenario.plan, on).why() : find_spot(*scenario.plan, on).why();
+  }
+
   void read_on(const YamlNode& node, const std::string& on, Scenario& scenario) {
-    std::string why;
     if (!scenario.plan)
       values_.wrong(node, "'on' names a PLC or a line of a system", "name the file of one with 'system:'");
-    else if (scenario.is_of_peers() ? !find_line(*scenario.plan, on, why) : !find_spot(*scenario.plan, on, why))
+    else if (const std::string why = why_no_place(scenario, on); !why.empty())
       values_.wrong(node, why);
     scenario.on = on;
   }
@@ -165,9 +166,7 @@ class HeadReader {
   /// A file that cannot be read is complained about when the program is.
   static void read_symbols(Scenario& scenario) {
     for (const std::string& path : scenario.with) {
-      std::string why;
-      const auto bytes = read_file(path, why);
-      auto source = bytes ? read_source(*bytes, path, why) : std::nullopt;
+      auto source = read_file(path).and_then([&](const std::string& bytes) { return read_source(bytes, path); });
       if (!source) continue;
       auto& symbols = source->parsed.source.symbols;
       scenario.symbols.insert(scenario.symbols.end(), symbols.begin(), symbols.end());
@@ -180,9 +179,7 @@ class HeadReader {
     std::vector<std::string> paths{scenario.program};
     paths.insert(paths.end(), scenario.with.begin(), scenario.with.end());
     for (const std::string& path : paths) {
-      std::string why;
-      const auto bytes = read_file(path, why);
-      auto text = bytes ? read_source(*bytes, path, why) : std::nullopt;
+      auto text = read_file(path).and_then([&](const std::string& bytes) { return read_source(bytes, path); });
       if (!text) return;
       files.push_back(std::move(*text));
     }

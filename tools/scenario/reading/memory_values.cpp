@@ -22,10 +22,9 @@ std::optional<PlaceAndValue> read_place(ValueReader& values, const YamlNode& key
                                         const AddressSpace& space) {
   const auto address = values.text(key), value = values.text(item);
   if (!address || !value) return {};
-  std::string why;
-  const auto range = parse_range(*address, space, why);
+  const auto range = parse_range(*address, space);
   if (!range) {
-    values.wrong(key, why);
+    values.wrong(key, range.why());
     return {};
   }
   return PlaceAndValue{*address, *value, *range};
@@ -91,10 +90,9 @@ std::optional<MemoryExpected> value_expected(ValueReader& values, const YamlNode
 
 /// `01 02 .. 04`
 std::optional<MemoryExpected> bytes_expected(ValueReader& values, const YamlNode& item, const PlaceAndValue& written) {
-  std::string why;
-  auto pattern = parse_pattern(written.value, why);
+  auto pattern = parse_pattern(written.value);
   if (!pattern) {
-    values.wrong(item, fmt::format("'{}' are not bytes: {}", stl::shortened(written.value), why),
+    values.wrong(item, fmt::format("'{}' are not bytes: {}", stl::shortened(written.value), pattern.why()),
                  "write for example 01 02 .. 04");
     return {};
   }

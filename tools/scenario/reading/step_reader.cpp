@@ -147,12 +147,17 @@ void StepReader::read_place(const YamlNode& node, const Scenario& scenario, bool
   if (step.on.empty() && !needed) return;
   const std::string& place = step.on.empty() ? scenario.on : step.on;
   std::string why;
-  if (scenario.is_of_peers())
-    step.line = find_line(*scenario.plan, place, why);
-  else
-    step.spot = find_spot(*scenario.plan, place, why);
+  if (scenario.is_of_peers()) {
+    const auto line = find_line(*scenario.plan, place);
+    step.line = line.if_any();
+    why = line.why();
+  } else {
+    const auto spot = find_spot(*scenario.plan, place);
+    step.spot = spot.if_any();
+    why = spot.why();
+  }
   const YamlNode* const on = node.find("on");
-  if (!step.spot && !step.line) values_.wrong(on ? *on : node, why, on ? "" : "put on: NAME beside it");
+  if (!why.empty()) values_.wrong(on ? *on : node, why, on ? "" : "put on: NAME beside it");
 }
 
 /// Complains about what cannot be done there.

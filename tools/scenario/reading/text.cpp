@@ -110,28 +110,21 @@ std::optional<Count> parse_count(std::string_view text) {
   return count;
 }
 
-std::optional<std::vector<BytePattern>> parse_pattern(std::string_view text, std::string& why) {
+Result<std::vector<BytePattern>> parse_pattern(std::string_view text) {
   std::vector<BytePattern> pattern;
   while (!(text = stl::trim(text)).empty()) {
-    if (pattern.size() == serial::kLongestRawFrame) {
-      why = fmt::format("a frame has {} bytes at most", serial::kLongestRawFrame);
-      return {};
-    }
+    if (pattern.size() == serial::kLongestRawFrame) return trouble("a frame has {} bytes at most", serial::kLongestRawFrame);
     if (take(text, "..")) {
       pattern.push_back(std::nullopt);
       continue;
     }
     const auto byte = serial::parse_hex_frame(text.substr(0, 2));
-    if (!byte.ok()) {
-      why = byte.errors[0].message + "; .. stands for any byte";
-      return {};
-    }
+    if (!byte.ok()) return Trouble{byte.errors[0].message + "; .. stands for any byte"};
     pattern.push_back(byte.frame[0].byte);
     text.remove_prefix(2);
   }
   if (!pattern.empty()) return pattern;
-  why = "at least one byte is needed; 'silence' stands for none";
-  return {};
+  return Trouble{"at least one byte is needed; 'silence' stands for none"};
 }
 
 std::string in_words(const Window& window, const SerialFormat& format) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/serial_format.hpp"
 #include "tools/yaml/values.hpp"
 
@@ -65,8 +66,8 @@ std::optional<Window> parse_window(std::string_view text, Time tolerance);
 /// `3`, `1..3`, `1..`.
 std::optional<Count> parse_count(std::string_view text);
 
-/// Two hex digits or `..` a byte, blanks between as you like. Returns nothing and sets `why` for anything else.
-std::optional<std::vector<BytePattern>> parse_pattern(std::string_view text, std::string& why);
+/// Two hex digits or `..` a byte, blanks between as you like. Trouble for anything else.
+Result<std::vector<BytePattern>> parse_pattern(std::string_view text);
 
 /// `8 ms to 20 ms`, `1 s or more`.
 std::string in_words(const Window& window, const SerialFormat& format);

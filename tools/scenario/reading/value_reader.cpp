@@ -33,10 +33,9 @@ std::optional<std::string> ValueReader::text(const YamlNode& node) {
     return {};
   }
   if (node.text.find("${") == std::string::npos) return node.text;
-  std::string why;
-  auto result = substitute(node.text, parameters, why);
-  if (!result) wrong(node, why, "parameters: " + parameter_names());
-  return result;
+  auto result = substitute(node.text, parameters);
+  if (!result) wrong(node, result.why(), "parameters: " + parameter_names());
+  return std::move(result).if_any();
 }
 
 std::string ValueReader::parameter_names() const {
@@ -75,9 +74,8 @@ bool ValueReader::has_what_it_needs(const YamlNode& map, std::string& missing) {
   for (const YamlNode& need : needs->items) {
     const auto written = text(need);
     if (!written) continue;
-    std::string why;
-    const auto holds_here = holds(*written, parameters, why);
-    if (!holds_here) wrong(need, why);
+    const auto holds_here = holds(*written, parameters);
+    if (!holds_here) wrong(need, holds_here.why());
     if (!holds_here.value_or(true)) {
       missing = *written;
       return false;

@@ -60,10 +60,9 @@ struct UnforceStep final : StepAction {
 std::optional<MemoryRange> read_place_of(ValueReader& values, const YamlNode& node, const AddressSpace& space) {
   const auto written = values.text(node);
   if (!written) return {};
-  std::string why;
-  auto place = parse_range(*written, space, why);
-  if (!place) values.wrong(node, why);
-  return place;
+  auto place = parse_range(*written, space);
+  if (!place) values.wrong(node, place.why());
+  return place.if_any();
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/joined.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "serial_sim/modbus/address.hpp"
@@ -38,30 +39,27 @@ Bytes hex_pdu(const StepSource& source) {
   return serial::bytes_of(frame);
 }
 
-std::optional<modbus::DataAddress> area_and_number(const std::string& written, std::string& why) {
+Result<modbus::DataAddress> area_and_number(const std::string& written) {
   const std::size_t blank = written.find(' ');
   const auto first = parse_number(written.substr(blank));
   for (const modbus::AreaRow& row : modbus::areas())
     if (row.word == stl::lower_case(written.substr(0, blank)) && first && *first >= 0 && *first <= 0xFFFF)
       return modbus::DataAddress{row.area, static_cast<std::uint16_t>(*first)};
-  why = fmt::format("'{}' is not a place: one of {}, and a number from 0 to 65535", stl::shortened(written),
-                    stl::joined(modbus::areas(), &modbus::AreaRow::word));
-  return {};
+  return trouble("'{}' is not a place: one of {}, and a number from 0 to 65535", stl::shortened(written),
+                 stl::joined(modbus::areas(), &modbus::AreaRow::word));
 }
 
 /// `holding 10` or `40011`
 std::optional<modbus::DataAddress> place(const StepSource& source, bool to_write) {
   const auto written = source.values.text(source.is);
   if (!written) return {};
-  std::string why;
-  auto address =
-      written->find(' ') == std::string::npos ? modbus::parse_address(*written, why) : area_and_number(*written, why);
-  if (address && to_write && !modbus::row_of(address->area).write_one) {
-    why = fmt::format("{}s cannot be written", modbus::row_of(address->area).singular);
-    address.reset();
-  }
-  if (!address) source.values.wrong(source.is, why, "write for example holding 10, coils 0, or 40011");
-  return address;
+  const auto address = written->find(' ') == std::string::npos ? modbus::parse_address(*written) : area_and_number(*written);
+  const std::string why = address && to_write && !modbus::row_of(address->area).write_one
+                              ? fmt::format("{}s cannot be written", modbus::row_of(address->area).singular)
+                              : address.why();
+  if (why.empty()) return address.if_any();
+  source.values.wrong(source.is, why, "write for example holding 10, coils 0, or 40011");
+  return {};
 }
 
 Bytes read_pdu(const StepSource& source) {

@@ -55,50 +55,44 @@ std::optional<MemoryRange> range_at(std::uint32_t at, Width width, const CpuMode
 }
 
 /// `VB100:word`, `AC1:byte`: with another type than that of the address; of an accumulator the low end.
-std::optional<MemoryRange> parse_typed(std::string_view text, const Program& program, std::string& why) {
+Result<MemoryRange> parse_typed(std::string_view text, const Program& program) {
   const std::size_t colon = text.find(':', text.starts_with('"') ? text.find('"', 1) : 0);
   Place typed;
   const std::string suffix = stl::upper_case(text.substr(std::min(colon, text.size() - 1) + 1));
   const bool is_typed = suffix.find_first_not_of("0123456789:") != std::string::npos && read_pointer_suffix(suffix, typed);
-  if (!is_typed) return parse_range(text, program, why);
-  const auto at = parse_range(text.substr(0, colon), program, why);
-  if (!at) return {};
+  if (!is_typed) return parse_range(text, program);
+  const auto at = parse_range(text.substr(0, colon), program);
+  if (!at) return at.trouble();
   const bool in_bytes = info(at->area).element == 0 && at->width != Width::Bit, in_accumulator = at->area == Area::AC;
-  if (!in_bytes && !in_accumulator) {
-    why = fmt::format("'{}': {}", stl::shortened(text), kTypes);
-    return {};
-  }
+  if (!in_bytes && !in_accumulator) return trouble("'{}': {}", stl::shortened(text), kTypes);
   const std::uint32_t low = in_accumulator ? 4 - bytes_of(typed.width) : 0;
   auto range = range_at(at->at + low, typed.width, *program.model);
   const AreaInfo& area = info(at->area);
   const std::uint32_t step = in_accumulator ? area.step() : bytes_of(typed.width);
   const std::uint32_t end = area.base + program.model->size_of(at->area) * area.step();
-  if (!range || typed.count > (end - range->at + low) / step) {
-    why = fmt::format("'{}' does not exist on CPU {}", stl::shortened(text), program.model->name);
-    return {};
-  }
+  if (!range || typed.count > (end - range->at + low) / step)
+    return trouble("'{}' does not exist on CPU {}", stl::shortened(text), program.model->name);
   range->count = typed.count;
   range->real = typed.real;
-  return range;
+  return *range;
 }
 
-std::optional<Place> parse_place(std::string_view text, const Program& program, std::string& why) {
+Result<Place> parse_place(std::string_view text, const Program& program) {
   Place place;
   if (!text.starts_with('*')) {
-    const auto range = parse_typed(text, program, why);
-    if (!range) return {};
+    const auto range = parse_typed(text, program);
+    if (!range) return range.trouble();
     place.range = *range;
     return place;
   }
   const std::size_t colon = std::min(text.find(':'), text.size());
-  const auto pointer = parse_range(text.substr(1, colon - 1), program, why);
-  if (!pointer) return {};
+  const auto pointer = parse_range(text.substr(1, colon - 1), program);
+  if (!pointer) return pointer.trouble();
   place.range = *pointer;
   place.pointer = true;
   const std::string suffix = stl::upper_case(text.substr(std::min(colon + 1, text.size())));
   if (pointer->width == Width::Double && read_pointer_suffix(suffix, place)) return place;
-  why = fmt::format("'{}': {}", stl::shortened(text), kPointers);
-  return {};
+  return trouble("'{}': {}", stl::shortened(text), kPointers);
 }
 
 std::uint32_t pointer_value(const Place& place, const Cpu& cpu) { return load32(&cpu.state().image[place.range.at]); }
@@ -260,13 +254,12 @@ class ExpressionReader {
     if (const auto integer = parse_integer(word))
       return std::make_shared<Node>(Node{.constant = {static_cast<double>(*integer)}});
     if (const auto real = parse_real(word)) return std::make_shared<Node>(Node{.constant = {*real, true}});
-    std::string why;
-    const auto pointer = word.starts_with('&') ? parse_pointer(word, program_, why) : std::nullopt;
+    const auto pointer = word.starts_with('&') ? parse_pointer(word, program_) : std::nullopt;
     if (pointer) return std::make_shared<Node>(Node{.constant = {static_cast<double>(*pointer)}});
-    const auto place = why.empty() ? parse_place(word, program_, why) : std::nullopt;
+    const auto place = pointer.why().empty() ? parse_place(word, program_) : Result<Place>(pointer.trouble());
     if (!place) {
       at_ = begin;
-      return fail(why);
+      return fail(place.why());
     }
     return std::make_shared<Node>(Node{.kind = Node::Kind::Memory, .place = *place, .name = std::string(word)});
   }
@@ -349,7 +342,7 @@ double beside(const Value& constant, const Value& memory) {
   return wraps ? constant.number - range : constant.number;
 }
 
-std::optional<Value> compute(std::string_view op, const Value& left, const Value& right, std::string& why) {
+Result<Value> compute(std::string_view op, const Value& left, const Value& right) {
   const double a = beside(left, right), b = beside(right, left);
   const bool real = left.real || right.real;
   if (op == "or") return Value{left.truth() || right.truth() ? 1.0 : 0.0};
@@ -363,25 +356,25 @@ std::optional<Value> compute(std::string_view op, const Value& left, const Value
   if (op == "+") return Value{a + b, real};
   if (op == "-") return Value{a - b, real};
   if (op == "*") return Value{a * b, real};
-  if (b == 0) return why = "a division by 0", std::nullopt;
+  if (b == 0) return Trouble{"a division by 0"};
   return Value{real ? a / b : std::trunc(a / b), real};
 }
 
-std::optional<Value> evaluate(const Node& node, const Cpu& cpu, std::string& why) {
+Result<Value> evaluate(const Node& node, const Cpu& cpu) {
   if (node.kind == Node::Kind::Constant) return node.constant;
   if (node.kind == Node::Kind::Memory) {
     const auto value = value_of(node.place, cpu);
-    if (!value) why = nowhere_text(node, cpu);
-    return value;
+    if (!value) return Trouble{nowhere_text(node, cpu)};
+    return *value;
   }
-  const auto left = evaluate(*node.left, cpu, why);
-  if (!left) return {};
+  const auto left = evaluate(*node.left, cpu);
+  if (!left) return left.trouble();
   if (node.kind == Node::Kind::Not) return Value{left->truth() ? 0.0 : 1.0};
   if (node.kind == Node::Kind::Negate) return Value{left->real ? -left->number : 0 - left->number, left->real};
   if (node.op == "and" && !left->truth()) return Value{0};
   if (node.op == "or" && left->truth()) return Value{1};
-  const auto right = evaluate(*node.right, cpu, why);
-  return right ? compute(node.op, *left, *right, why) : std::nullopt;
+  const auto right = evaluate(*node.right, cpu);
+  return right ? compute(node.op, *left, *right) : right;
 }
 
 /// Each place once, in the order in which they are written.
@@ -394,17 +387,16 @@ void collect_places(const Node& node, std::vector<const Node*>& places) {
 
 }  // namespace
 
-std::optional<Expression> Expression::parse(std::string_view text, const Program& program, std::string& why) {
+Result<Expression> Expression::parse(std::string_view text, const Program& program) {
   ExpressionReader reader(text, program);
   Expression expression;
   expression.text_ = text;
   expression.root_ = reader.read();
   if (expression.root_) return expression;
-  why = reader.why();
-  return {};
+  return Trouble{reader.why()};
 }
 
-std::optional<Value> Expression::value(const Cpu& cpu, std::string& why) const { return evaluate(*root_, cpu, why); }
+Result<Value> Expression::value(const Cpu& cpu) const { return evaluate(*root_, cpu); }
 
 std::vector<Place> Expression::places() const {
   std::vector<const Node*> nodes;

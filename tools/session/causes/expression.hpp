@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/cpu/cpu.hpp"
 #include "interpreter/program/operands/address.hpp"
 
@@ -29,8 +30,8 @@ struct Place {
 /// The area and number that a place of the image belongs to.
 std::optional<MemoryRange> range_at(std::uint32_t at, Width width, const CpuModel& model);
 
-/// `VB0:16`, `VD20:real`, `*VD3570:4`, `*AC1:word`. Returns nothing and sets `why` if it is not an address of this CPU.
-std::optional<Place> parse_place(std::string_view text, const Program& program, std::string& why);
+/// `VB0:16`, `VD20:real`, `*VD3570:4`, `*AC1:word`. Trouble if it is not an address of this CPU.
+Result<Place> parse_place(std::string_view text, const Program& program);
 
 /// Where that is now; nothing for a pointer that points nowhere.
 std::optional<MemoryRange> range_now(const Place& place, const Cpu& cpu);
@@ -59,11 +60,11 @@ class Expression {
  public:
   struct Node;
 
-  /// Returns nothing and sets `why`, with the column, if it cannot be read.
-  static std::optional<Expression> parse(std::string_view text, const Program& program, std::string& why);
+  /// Trouble with the column, if it cannot be read.
+  static Result<Expression> parse(std::string_view text, const Program& program);
 
-  /// Nothing where a pointer points nowhere, or by division by 0; `why` says which.
-  std::optional<Value> value(const Cpu& cpu, std::string& why) const;
+  /// Trouble where a pointer points nowhere, and by division by 0.
+  Result<Value> value(const Cpu& cpu) const;
 
   /// `VW20 is 7, M0.1 is 0`: all its places, as they are written in it; empty if it has none.
   std::string places_text(const Cpu& cpu) const;

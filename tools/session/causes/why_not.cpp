@@ -65,8 +65,7 @@ bool add_times(History& history, std::size_t station, Obstacle& answer, StopToke
 
 Obstacle tree_of(const Wish& wish, Obstacles& obstacles, const Cpu& cpu) {
   if (wish.bit) return obstacles.of_bit(*wish.bit, wish.on);
-  std::string unknown;
-  const bool holds = holds_now(wish, cpu, unknown).value_or(false);
+  const bool holds = holds_now(wish, cpu).value_or(false);
   Obstacle answer{.kind = "condition",
                   .text = fmt::format("{} {}: {}", stl::printable(wish.text), holds ? "holds" : "does not hold",
                                       wish.condition->places_text(cpu))};
@@ -87,19 +86,19 @@ Obstacle answer_to(const Wish& wish, Obstacles& obstacles, const Cpu& cpu) {
 
 }  // namespace
 
-std::optional<Wish> parse_wish(std::string_view text, const Program& program, std::string& why) {
+Result<Wish> parse_wish(std::string_view text, const Program& program) {
   Wish wish{.text = std::string(stl::trim(text))};
   std::string_view address = wish.text;
   const bool negated = stl::lower_case(address.substr(0, 4)) == "not ";
   if (negated) address = stl::trim(address.substr(4));
-  std::string ignored;
-  const auto place = parse_place(address, program, ignored);
+  const auto place = parse_place(address, program);
   const auto range = place && !place->pointer ? std::optional(place->range) : std::nullopt;
   if (range) wish.bit = bit_of(*range);
   wish.on = !negated;
   if (wish.bit) return wish;
-  wish.condition = Expression::parse(wish.text, program, why);
-  if (!wish.condition) return {};
+  auto condition = Expression::parse(wish.text, program);
+  if (!condition) return condition.trouble();
+  wish.condition = *std::move(condition);
   return wish;
 }
 
@@ -111,10 +110,11 @@ std::vector<Bits> bits_of(const Wish& wish) {
   return all;
 }
 
-std::optional<bool> holds_now(const Wish& wish, const Cpu& cpu, std::string& why) {
+Result<bool> holds_now(const Wish& wish, const Cpu& cpu) {
   if (wish.bit) return is_on(cpu, *wish.bit) == wish.on;
-  const auto value = wish.condition->value(cpu, why);
-  return value ? std::optional(value->truth()) : std::nullopt;
+  const auto value = wish.condition->value(cpu);
+  if (!value) return value.trouble();
+  return value->truth();
 }
 
 std::optional<Obstacle> why_not(History& history, std::size_t station, const Wish& wish, StopToken stop_request) {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/stop_token.hpp"
 #include "tools/session/causes/expression.hpp"
 #include "tools/session/causes/obstacle.hpp"
@@ -25,14 +26,14 @@ struct Wish {
   std::optional<Expression> condition{};  ///< without a bit
 };
 
-/// `Q0.3`, `not Q0.3`, `T37`, `VW10 > 5`. Nothing, and `why`, if it cannot be read.
-std::optional<Wish> parse_wish(std::string_view text, const Program& program, std::string& why);
+/// `Q0.3`, `not Q0.3`, `T37`, `VW10 > 5`. Trouble if it cannot be read.
+Result<Wish> parse_wish(std::string_view text, const Program& program);
 
 /// The bits that it is about, without those that pointers lead to.
 std::vector<Bits> bits_of(const Wish& wish);
 
-/// Whether it is so now; nothing, and `why`, where a pointer points nowhere.
-std::optional<bool> holds_now(const Wish& wish, const Cpu& cpu, std::string& why);
+/// Whether it is so now; trouble where a pointer points nowhere.
+Result<bool> holds_now(const Wish& wish, const Cpu& cpu);
 
 /// What is in the way where the history stands, which stands there afterwards; with since when each value has been there, to
 /// the scan. Nothing after a stop request.

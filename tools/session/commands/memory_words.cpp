@@ -67,16 +67,15 @@ std::size_t end_of_name(std::string_view word, std::size_t from) {
 
 }  // namespace
 
-std::optional<NamedRange> find_range(Session& session, const std::string& text, std::string& why) {
+Result<NamedRange> find_range(Session& session, const std::string& text) {
   const Cpu& cpu = session.cpu();
-  const auto place = parse_place(text, cpu.program(), why);
-  if (!place) return {};
+  const auto place = parse_place(text, cpu.program());
+  if (!place) return place.trouble();
   const auto range = range_now(*place, cpu);
   const std::string written = stl::upper_case(text);
   if (!range) {
     const std::string address = address_name(cpu.program(), place->range, place->range.name_of(0));
-    why = bad_pointer_text(cpu, place->range, written, address);
-    return {};
+    return Trouble{bad_pointer_text(cpu, place->range, written, address)};
   }
   if (!place->pointer) return NamedRange{*range, address_name(cpu.program(), *range, written)};
   const std::string count = range->count > 1 ? fmt::format(":{}", range->count) : "";
@@ -85,19 +84,17 @@ std::optional<NamedRange> find_range(Session& session, const std::string& text, 
   return named;
 }
 
-std::optional<NamedRange> one_range(Session& session, const Words& arguments, std::string_view command, std::string& why) {
-  if (arguments.size() == 1) return find_range(session, arguments[0], why);
-  why = expects(command, fmt::format("one address, or event and a number, for example: {} VW100", command));
-  return {};
+Result<NamedRange> one_range(Session& session, const Words& arguments, std::string_view command) {
+  if (arguments.size() == 1) return find_range(session, arguments[0]);
+  return Trouble{expects(command, fmt::format("one address, or event and a number, for example: {} VW100", command))};
 }
 
 std::string ranges_of(Session& session, const Words& arguments, std::string_view command, std::vector<NamedRange>& ranges) {
   for (const std::string& text : arguments) {
-    std::string why, no_expression;
-    const auto range = find_range(session, text, why);
-    if (!range && arguments.size() > 1 && Expression::parse(joined(arguments), session.program(), no_expression))
+    const auto range = find_range(session, text);
+    if (!range && arguments.size() > 1 && Expression::parse(joined(arguments), session.program()))
       return fmt::format("{} takes addresses; 'print {}' computes an expression", command, joined(arguments));
-    if (!range) return why;
+    if (!range) return range.why();
     ranges.push_back(*range);
   }
   return {};
@@ -109,9 +106,9 @@ std::string address_name(const Program& program, const MemoryRange& range, std::
   return fmt::format("{} ({})", range.name_of(0), stl::printable(symbol->name));
 }
 
-std::optional<std::uint32_t> find_op(Session& session, const Words& arguments, std::string_view command, std::string& why) {
-  const auto place = find_place(arguments, session.program(), session.listing(), command, why);
-  if (!place) return {};
+Result<std::uint32_t> find_op(Session& session, const Words& arguments, std::string_view command) {
+  const auto place = find_place(arguments, session.program(), session.listing(), command);
+  if (!place) return place.trouble();
   session.said << place->note;
   return place->op;
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "tools/session/commands/reply.hpp"
 #include "tools/session/commands/session.hpp"
 #include "tools/session/past/actions/access.hpp"
@@ -17,11 +18,11 @@ struct NamedRange {
   std::string name;
 };
 
-/// An address, or the one that a pointer holds now, which is said. Nothing, and `why`, if it is none.
-std::optional<NamedRange> find_range(Session& session, const std::string& text, std::string& why);
+/// An address, or the one that a pointer holds now, which is said. Trouble if it is none.
+Result<NamedRange> find_range(Session& session, const std::string& text);
 
 /// The only address that a command takes.
-std::optional<NamedRange> one_range(Session& session, const Words& arguments, std::string_view command, std::string& why);
+Result<NamedRange> one_range(Session& session, const Words& arguments, std::string_view command);
 
 /// All that a command takes. Returns what is wrong; empty if nothing is.
 std::string ranges_of(Session& session, const Words& arguments, std::string_view command, std::vector<NamedRange>& ranges);
@@ -29,9 +30,9 @@ std::string ranges_of(Session& session, const Words& arguments, std::string_view
 /// `VW100 (Speed)`, or as it was written.
 std::string address_name(const Program& program, const MemoryRange& range, std::string_view written);
 
-/// An instruction that a command names by its place; a line that stands for the next one is said. Nothing, and `why`, when
+/// An instruction that a command names by its place; a line that stands for the next one is said. Trouble when
 /// there is no such place.
-std::optional<std::uint32_t> find_op(Session& session, const Words& arguments, std::string_view command, std::string& why);
+Result<std::uint32_t> find_op(Session& session, const Words& arguments, std::string_view command);
 
 /// Puts addresses for the names of variables of the block of an instruction (`#level`), and says which. Returns what is
 /// wrong; empty if nothing is.

@@ -32,21 +32,24 @@ SessionFile::SavedStop saved(const StopPoint& stop) {
           .log = stop.log};
 }
 
-std::optional<StopPoint> stop_of(const Session& session, const SessionFile::SavedStop& saved, std::string& why) {
+std::optional<StopPoint> stop_of(const Session& session, const SessionFile::SavedStop& saved) {
   const Session::Station& of = session.stations[saved.station];
   const Program& program = of.simulation->cpu().program();
   std::string note;
   std::optional<StopPoint> stop;
   if (saved.access.empty()) {
-    stop = find_stop(stl::split_words(saved.on), program, of.listing, why, note);
-  } else if (const auto place = parse_place(saved.on, program, why); place && !place->pointer) {
+    stop = find_stop(stl::split_words(saved.on), program, of.listing, note).if_any();
+  } else if (const auto place = parse_place(saved.on, program); place && !place->pointer) {
     const auto access = std::ranges::find(kAccesses, saved.access, &AccessWord::word);
     if (access == std::end(kAccesses)) return {};
     stop = StopPoint{.on = access->on, .range = place->range, .name = address_name(program, place->range, saved.on)};
     if (stop->on != On::Change) stop->name += fmt::format(" {}", access->word);
   }
-  if (stop && !saved.condition.empty()) stop->condition = Expression::parse(saved.condition, program, why);
-  if (!stop || !why.empty() || !check_message(saved.log, program, why)) return {};
+  if (!stop || !check_message(saved.log, program)) return {};
+  if (!saved.condition.empty()) {
+    stop->condition = Expression::parse(saved.condition, program).if_any();
+    if (!stop->condition) return {};
+  }
   stop->number = saved.number;
   stop->station = saved.station;
   if (saved.always) stop->needs_power = false;
@@ -59,19 +62,16 @@ std::optional<StopPoint> stop_of(const Session& session, const SessionFile::Save
 
 std::vector<SessionFile::SavedStop> saved_stops(const Session& session) {
   std::vector<SessionFile::SavedStop> all;
-  std::string why;
   for (const StopPoint& stop : session.stepper.stops())
-    if (stop_of(session, saved(stop), why)) all.push_back(saved(stop));
+    if (stop_of(session, saved(stop))) all.push_back(saved(stop));
   return all;
 }
 
-std::optional<std::vector<StopPoint>> stops_of(const Session& session, const SessionFile& file, std::string& why) {
+Result<std::vector<StopPoint>> stops_of(const Session& session, const SessionFile& file) {
   std::vector<StopPoint> stops;
   for (const SessionFile::SavedStop& saved : file.stops) {
-    std::string wrong;
-    const auto stop = stop_of(session, saved, wrong);
-    if (!stop)
-      return why = fmt::format("it is damaged: a breakpoint or watch at '{}'", stl::shortened(saved.on)), std::nullopt;
+    const auto stop = stop_of(session, saved);
+    if (!stop) return trouble("it is damaged: a breakpoint or watch at '{}'", stl::shortened(saved.on));
     stops.push_back(*stop);
   }
   return stops;

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/stop_token.hpp"
 #include "interpreter/base/text/wrapped.hpp"
 #include "serial_sim/peers/requester.hpp"
@@ -53,10 +54,9 @@ struct SessionSetup {
   std::string why_no_files = "files are neither read nor written here";
   std::vector<SessionOption> options{};  ///< that a saved session needs again, besides the master's
 
-  /// Writes a session as a scenario. Returns what was left out, and why that cannot be recorded; nothing, and `why`, if
+  /// Writes a session as a scenario. Returns what was left out, and why that cannot be recorded; trouble if
   /// nothing of it can.
-  std::function<std::optional<std::vector<std::string>>(const SessionRecord& record, const FilePlace& to, std::string& why)>
-      write_scenario{};
+  std::function<Result<std::vector<std::string>>(const SessionRecord& record, const FilePlace& to)> write_scenario{};
 };
 
 /// What is said, piece by piece.

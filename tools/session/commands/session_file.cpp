@@ -190,39 +190,31 @@ std::string to_text(const SessionFile& file) {
   return json.dump(2) + "\n";
 }
 
-std::optional<SessionFile> session_from_text(std::string_view text, std::span<const CpuModel* const> models,
-                                             std::span<const std::string> names, std::string& why) {
-  std::string not_json;
-  Json json = parse_json(text, not_json).value_or(Json());
+Result<SessionFile> session_from_text(std::string_view text, std::span<const CpuModel* const> models,
+                                      std::span<const std::string> names) {
+  const auto parsed = parse_json(text);
+  Json json = parsed.value_or(Json());
   const Json* const format = member(json, "format");
-  if (!format || !format->is_string() || !format->get_ref<const std::string&>().starts_with(kAnySessionFormat)) {
-    why = !text.starts_with(session_beginning()) ? "it is not a saved session"
-          : not_json.empty()                     ? "it is damaged"
-                                                 : "it is damaged: it is " + not_json;
-    return {};
-  }
-  if (*format != kFormat) {
-    why = fmt::format("it is \"{}\", and this s7200 reads \"{}\"", stl::shortened(format->get<std::string>()), kFormat);
-    return {};
-  }
+  if (!format || !format->is_string() || !format->get_ref<const std::string&>().starts_with(kAnySessionFormat))
+    return Trouble{!text.starts_with(session_beginning()) ? "it is not a saved session"
+                   : parsed                               ? "it is damaged"
+                                                          : "it is damaged: it is " + parsed.why()};
+  if (*format != kFormat)
+    return trouble("it is \"{}\", and this s7200 reads \"{}\"", stl::shortened(format->get<std::string>()), kFormat);
   const Json* const written_sum = member(json, "sum");
   const Json sum = written_sum ? *written_sum : Json();
   json.erase("sum");
-  if (sum != sum_of(json)) {
-    why = "it is damaged: its check sum is wrong";
-    return {};
-  }
+  if (sum != sum_of(json)) return Trouble{"it is damaged: its check sum is wrong"};
   try {
     if (const std::string by = text_at(json, "version"); by != version())
-      why = fmt::format("s7200 {} has written it, and this is s7200 {}: they may run differently", by, version());
-    else if (why = why_other_plcs(json, models, names); why.empty())
-      return file_from(json, models);
+      return trouble("s7200 {} has written it, and this is s7200 {}: they may run differently", by, version());
+    if (std::string why = why_other_plcs(json, models, names); !why.empty()) return Trouble{std::move(why)};
+    return file_from(json, models);
   } catch (const Json::exception&) {  // whose texts are of no help to a user
-    why = "it is damaged: something in it is missing, or of another type";
+    return Trouble{"it is damaged: something in it is missing, or of another type"};
   } catch (const std::exception& error) {
-    why = fmt::format("it is damaged: {}", error.what());
+    return trouble("it is damaged: {}", error.what());
   }
-  return {};
 }
 
 }  // namespace s7200::tools

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
@@ -85,9 +86,9 @@ struct SessionFile {
 
 std::string to_text(const SessionFile& file);
 
-/// `models` and `names` are those of the PLCs here. Returns nothing and sets `why` if it is not such a file, damaged, of
+/// `models` and `names` are those of the PLCs here. Trouble if it is not such a file, damaged, of
 /// another version of the file, or of other PLCs.
-std::optional<SessionFile> session_from_text(std::string_view text, std::span<const CpuModel* const> models,
-                                             std::span<const std::string> names, std::string& why);
+Result<SessionFile> session_from_text(std::string_view text, std::span<const CpuModel* const> models,
+                                      std::span<const std::string> names);
 
 }  // namespace s7200::tools

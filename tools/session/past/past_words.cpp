@@ -52,7 +52,7 @@ std::string at_oldest_text(const History& history) {
   return "this is the oldest moment: " + (whole ? "the session begins at power-up" : oldest_text(history));
 }
 
-std::optional<Time> parse_moment(std::string_view text, const History& history, std::string& why) {
+Result<Time> parse_moment(std::string_view text, const History& history) {
   const std::string word = stl::lower_case(text);
   const Time oldest = history.usage().oldest.time, newest = history.newest().time;
   if (word == "start") return oldest;
@@ -60,13 +60,11 @@ std::optional<Time> parse_moment(std::string_view text, const History& history, 
   const bool before_now = text.starts_with('-');
   const auto given = parse_duration(text.substr(before_now ? 1 : 0));
   if (!given)
-    return why = fmt::format("'{}' is not a moment; write for example 15.193ms or -5ms (in {}), start or end",
-                             stl::shortened(text), kTimeUnits),
-           std::nullopt;
+    return trouble("'{}' is not a moment; write for example 15.193ms or -5ms (in {}), start or end", stl::shortened(text),
+                   kTimeUnits);
   const Time now = history.now().time, time = before_now ? now - *given : *given;
-  if (time < oldest)
-    return why = fmt::format("the oldest moment is {}, {}", moment_text(oldest), oldest_text(history)), std::nullopt;
-  if (time > newest) return why = fmt::format("nothing has run after {} so far", moment_text(newest)), std::nullopt;
+  if (time < oldest) return trouble("the oldest moment is {}, {}", moment_text(oldest), oldest_text(history));
+  if (time > newest) return trouble("nothing has run after {} so far", moment_text(newest));
   return time;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
@@ -26,9 +27,9 @@ std::string since_oldest_text(const History& history);
 /// What is said when it stands there.
 std::string at_oldest_text(const History& history);
 
-/// The moment that `15.193ms`, `-5ms`, `start` or `end` means, as its time; that of the oldest one for `start`. Returns
-/// nothing and sets `why` if it is not one, or not one of this branch.
-std::optional<Time> parse_moment(std::string_view text, const History& history, std::string& why);
+/// The moment that `15.193ms`, `-5ms`, `start` or `end` means, as its time; that of the oldest one for `start`. Trouble
+/// if it is not one, or not one of this branch.
+Result<Time> parse_moment(std::string_view text, const History& history);
 
 /// To a time that parse_moment() has read: in front of the first instruction at or after it, or to the oldest moment. False
 /// after a stop request; it stands where it stood then.

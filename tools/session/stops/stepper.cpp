@@ -507,9 +507,8 @@ std::uint64_t Stepper::count(SetStop& stop, Time when) {
 /// A condition that cannot be computed does not hold.
 bool Stepper::holds(StopPoint& stop) {
   if (!stop.condition) return true;
-  std::string why;
-  const auto value = stop.condition->value(station(stop.station).cpu(), why);
-  if (!value && !backwards_ && stop.unknown++ == 0) stop.why_unknown = why;
+  const auto value = stop.condition->value(station(stop.station).cpu());
+  if (!value && !backwards_ && stop.unknown++ == 0) stop.why_unknown = value.why();
   return value && value->truth();
 }
 

@@ -42,8 +42,7 @@ const MessageWord* find_word(std::string_view word) {
 
 /// Of an address with a count, as `watch` says it; nothing of anything else.
 std::optional<std::string> several_at(std::string_view text, const Cpu& cpu) {
-  std::string why;
-  const auto place = parse_place(text, cpu.program(), why);
+  const auto place = parse_place(text, cpu.program());
   const auto range = place ? range_now(*place, cpu) : std::nullopt;
   if (!range || range->count == 1) return {};
   return value_text(cpu.program(), *range, range->bytes_in(cpu.state().image));
@@ -74,27 +73,27 @@ std::string filled_in(const std::string& text, const Cpu& cpu, Time now, const I
           filled += word->text(cpu, now, by);
           return;
         }
-        std::string why;
         const auto several = several_at(part, cpu);
-        const auto expression = several ? std::nullopt : Expression::parse(part, cpu.program(), why);
-        const auto value = expression ? expression->value(cpu, why) : std::nullopt;
+        const auto expression = several ? std::nullopt : Expression::parse(part, cpu.program());
+        const auto value = expression ? expression->value(cpu) : std::nullopt;
         filled += several ? *several : value ? number_text(*value) : expression ? "?" : fmt::format("{{{}}}", part);
       });
   return filled;
 }
 
-bool check_message(const std::string& text, const Program& program, std::string& why) {
-  bool good = true;
+Result<> check_message(const std::string& text, const Program& program) {
+  Result<> good;
   split(
       text, [](std::string_view) {},
       [&](std::string_view part) {
         if (find_word(part)) return;
-        good = good && Expression::parse(part, program, why).has_value();
+        if (good)
+          if (const auto expression = Expression::parse(part, program); !expression) good = expression.trouble();
       });
   const std::size_t open = text.rfind('{');
   if (good && open != std::string::npos && text.find('}', open) == std::string::npos)
-    why = fmt::format("'{}', column {}: the closing }} is missing", stl::shortened(text), open + 1);
-  return good && why.empty();
+    return trouble("'{}', column {}: the closing }} is missing", stl::shortened(text), open + 1);
+  return good;
 }
 
 }  // namespace s7200::tools

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/trace/trace.hpp"
 #include "tools/session/causes/expression.hpp"
 #include "tools/session/past/actions/plc_requests.hpp"
@@ -97,7 +98,7 @@ struct Hit {
 /// null for the one that is next.
 std::string filled_in(const std::string& text, const Cpu& cpu, Time now, const InstructionRecord* by = nullptr);
 
-/// Whether all in braces can be read, and each is closed; sets `why` if not.
-bool check_message(const std::string& text, const Program& program, std::string& why);
+/// Whether all in braces can be read, and each is closed; trouble if not.
+Result<> check_message(const std::string& text, const Program& program);
 
 }  // namespace s7200::tools

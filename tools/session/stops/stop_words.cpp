@@ -99,58 +99,46 @@ std::string no_instruction_text(const LinesOfFile& file, const Program& program)
                      last->position.line - file.first + 1, others);
 }
 
-std::optional<NamedPlace> place_of_line(const std::string& text, const Program& program, const Listing& listing,
-                                        std::string_view command, std::string& why) {
-  const auto line = find_program_line(text, program, listing, why);
-  if (!line && why.empty()) why = expects(command, kPlaces);
-  if (!line) return {};
+Result<NamedPlace> place_of_line(const std::string& text, const Program& program, const Listing& listing,
+                                 std::string_view command) {
+  const auto line = find_program_line(text, program, listing);
+  if (!line) return line.why().empty() ? Trouble{expects(command, kPlaces)} : line.trouble();
   const std::uint32_t op = listing.op_from_line(*line).value();
   if (listing.line_of(op) == *line) return NamedPlace{op};
   return NamedPlace{op, fmt::format("{} has no instruction; the next one is in {}\n",
                                     stl::line_text(program.source, *line, 1), line_of(op, program))};
 }
 
-std::optional<NamedPlace> place_of_network(const std::string& text, const Listing& listing, std::string_view command,
-                                           std::string& why) {
+Result<NamedPlace> place_of_network(const std::string& text, const Listing& listing, std::string_view command) {
   const std::size_t digit = text.find_first_of("0123456789");
   const auto number = digit == std::string::npos ? std::nullopt : parse_decimal<std::uint32_t>(text.substr(digit));
   const auto op = number ? listing.op_of_network(*number) : std::nullopt;
   if (op) return NamedPlace{*op};
-  why = number ? fmt::format("the program has no NETWORK {} with an instruction", *number) : expects(command, kPlaces);
-  return {};
+  return Trouble{number ? fmt::format("the program has no NETWORK {} with an instruction", *number)
+                        : expects(command, kPlaces)};
 }
 
-std::optional<StopPoint> event_stop(const std::vector<std::string>& words, const CpuModel& model, std::string& why) {
+Result<StopPoint> event_stop(const std::vector<std::string>& words, const CpuModel& model) {
   const auto number = words.size() >= 2 ? parse_decimal<std::uint8_t>(words[1]) : std::nullopt;
   const std::string what = words.size() == 3 ? stl::lower_case(words[2]) : words.size() == 2 ? "served" : "";
-  if (!number || !find_event(*number) || (what != "served" && what != "occurs")) {
-    why = expects("break event", "the number of an event, and occurs or served, for example: break event 8 occurs");
-    return {};
-  }
-  if (const CpuSet cpus = find_event(*number)->cpus; (cpus & model.self) == 0) {
-    why = needs(fmt::format("event {} needs", *number), cpus);
-    return {};
-  }
+  if (!number || !find_event(*number) || (what != "served" && what != "occurs"))
+    return Trouble{
+        expects("break event", "the number of an event, and occurs or served, for example: break event 8 occurs")};
+  if (const CpuSet cpus = find_event(*number)->cpus; (cpus & model.self) == 0)
+    return Trouble{needs(fmt::format("event {} needs", *number), cpus)};
   return StopPoint{.on = what == "served" ? On::EventServed : On::EventOccurs, .event = *number};
 }
 
-std::optional<StopPoint> happening_stop(const Happening& happening, const std::vector<std::string>& words,
-                                        const CpuModel& model, std::string& why) {
-  if (const CpuSet cpus = find_instruction("RCV")->cpus; happening.on == On::ReceiveEnd && (cpus & model.self) == 0) {
-    why = needs("RCV needs", cpus);
-    return {};
-  }
+Result<StopPoint> happening_stop(const Happening& happening, const std::vector<std::string>& words, const CpuModel& model) {
+  if (const CpuSet cpus = find_instruction("RCV")->cpus; happening.on == On::ReceiveEnd && (cpus & model.self) == 0)
+    return Trouble{needs("RCV needs", cpus)};
   if (words.size() == 1) return StopPoint{.on = happening.on};
-  if (happening.on != On::RuntimeError) {
-    why = fmt::format("break {} expects nothing more", happening.word);
-    return {};
-  }
-  if (words.size() > 2 || !parse_integer("16#" + words[1])) {
-    why = expects("break error", "nothing or a code in hex, for example: break error 0006");
-    return {};
-  }
-  const auto code = error_code_of(words[1], why);
-  return code ? std::optional(StopPoint{.on = happening.on, .code = code}) : std::nullopt;
+  if (happening.on != On::RuntimeError) return trouble("break {} expects nothing more", happening.word);
+  if (words.size() > 2 || !parse_integer("16#" + words[1]))
+    return Trouble{expects("break error", "nothing or a code in hex, for example: break error 0006")};
+  const auto code = error_code_of(words[1]);
+  if (!code) return code.trouble();
+  return StopPoint{.on = happening.on, .code = *code};
 }
 
 /// Or a beginning of one: `sbr`, `int5`, `40`.
@@ -172,23 +160,19 @@ bool has_operator(std::string_view text) {
   return text.find_first_of("<>=") != std::string_view::npos || stl::lower_case(text).starts_with("not ");
 }
 
-/// Of `VW0 > 3`, or a bit alone: it stops when that comes to hold. `why` says of other text what was expected.
-std::optional<StopPoint> becoming_stop(const std::string& text, const Program& program, std::string& why) {
-  std::string no_condition, no_address;
-  const auto address = parse_place(text, program, no_address);
-  if (address && !address->pointer && address->range.width != Width::Bit) {
-    why = fmt::format("break {0}: when? 'watch {0}' stops when it changes, 'break {0} > 3' when that comes to hold",
-                      stl::printable(text));
-    return {};
-  }
-  const auto condition = Expression::parse(text, program, no_condition);
+/// Of `VW0 > 3`, or a bit alone: it stops when that comes to hold. `otherwise`: what other text was expected.
+Result<StopPoint> becoming_stop(const std::string& text, const Program& program, const std::string& otherwise) {
+  const auto address = parse_place(text, program);
+  if (address && !address->pointer && address->range.width != Width::Bit)
+    return trouble("break {0}: when? 'watch {0}' stops when it changes, 'break {0} > 3' when that comes to hold",
+                   stl::printable(text));
+  const auto condition = Expression::parse(text, program);
   const bool has_place = condition && !condition->places().empty();
-  if (has_place) return StopPoint{.on = On::Becomes, .name = text, .condition = condition};
-  if (has_operator(text))
-    why = condition ? fmt::format("break {}: no address is in it, so it never changes", stl::printable(text)) : no_condition;
-  else
-    why += fmt::format("; or what happens: {}; or a condition, for example: break VW0 > 3", happenings_text());
-  return {};
+  if (has_place) return StopPoint{.on = On::Becomes, .name = text, .condition = *condition};
+  if (!has_operator(text))
+    return trouble("{}; or what happens: {}; or a condition, for example: break VW0 > 3", otherwise, happenings_text());
+  if (!condition) return condition.trouble();
+  return trouble("break {}: no address is in it, so it never changes", stl::printable(text));
 }
 
 /// Those that are not among the words; none where an option has not got what it needs.
@@ -223,65 +207,58 @@ std::string stop_options_text() {
   return text;
 }
 
-std::optional<std::uint32_t> find_program_line(std::string_view text, const Program& program, const Listing& listing,
-                                               std::string& why) {
+Result<std::uint32_t> find_program_line(std::string_view text, const Program& program, const Listing& listing) {
   const std::string upper = stl::upper_case(text);
   const std::size_t colon = upper.rfind(':');
   const bool is_named = colon != std::string::npos;
   const auto number = parse_decimal<std::uint32_t>(is_named ? std::string_view(upper).substr(colon + 1) : upper);
-  if (!number || *number == 0) return {};
+  if (!number || *number == 0) return std::nullopt;
   const std::vector<LinesOfFile> files = files_of(program.source);
   const LinesOfFile* const file = file_named(is_named ? std::string_view(upper).substr(0, colon) : "", files);
-  if (!file) return {};
+  if (!file) return std::nullopt;
   const std::uint64_t line = std::uint64_t{file->first} + *number - 1;
   const auto op = line < file->end ? listing.op_from_line(static_cast<std::uint32_t>(line)) : std::nullopt;
   if (op && file->has(listing.line_of(*op))) return static_cast<std::uint32_t>(line);
-  why = no_instruction_text(*file, program);
-  return {};
+  return Trouble{no_instruction_text(*file, program)};
 }
 
-std::optional<std::uint16_t> error_code_of(std::string_view text, std::string& why) {
+Result<std::uint16_t> error_code_of(std::string_view text) {
   constexpr RunError kNone{};
   const auto code = parse_integer(fmt::format("16#{}", text));
   const bool is_known = code && *code > 0 && *code <= 0xFFFF && meaning_of(RunError(*code)) != meaning_of(kNone);
   if (is_known) return static_cast<std::uint16_t>(*code);
-  why = fmt::format("'{}' is not the code of a run-time error; write for example 0006 or 0091", stl::shortened(text));
-  return {};
+  return trouble("'{}' is not the code of a run-time error; write for example 0006 or 0091", stl::shortened(text));
 }
 
-std::optional<NamedPlace> find_place(const std::vector<std::string>& words, const Program& program, const Listing& listing,
-                                     std::string_view command, std::string& why) {
+Result<NamedPlace> find_place(const std::vector<std::string>& words, const Program& program, const Listing& listing,
+                              std::string_view command) {
   const std::string text = stl::upper_case(joined(words));
-  if (text.starts_with("NETWORK")) return place_of_network(text, listing, command, why);
+  if (text.starts_with("NETWORK")) return place_of_network(text, listing, command);
   const bool in_file = text.find(':') != std::string::npos;
   const auto kind = std::ranges::find(kMarks, std::string_view(text).substr(0, 3), &Mark::word);
-  if (in_file || kind == std::end(kMarks)) return place_of_line(text, program, listing, command, why);
+  if (in_file || kind == std::end(kMarks)) return place_of_line(text, program, listing, command);
   const auto number = parse_decimal<std::uint32_t>(words.size() == 1 ? std::string_view(text).substr(3) : words[1]);
-  if (!number || words.size() > 2) {
-    why = expects(command, kPlaces);
-    return {};
-  }
+  if (!number || words.size() > 2) return Trouble{expects(command, kPlaces)};
   const auto op = std::ranges::find_if(
       program.ops, [&](const Op& one) { return one.instruction->structure == kind->structure && one[0].at == *number; });
   if (op != program.ops.end()) return NamedPlace{static_cast<std::uint32_t>(op - program.ops.begin())};
-  why = fmt::format("the program has no {} {}", kind->word, *number);
-  return {};
+  return trouble("the program has no {} {}", kind->word, *number);
 }
 
-std::optional<StopPoint> find_stop(const std::vector<std::string>& words, const Program& program, const Listing& listing,
-                                   std::string& why, std::string& note) {
+Result<StopPoint> find_stop(const std::vector<std::string>& words, const Program& program, const Listing& listing,
+                            std::string& note) {
   const std::string first = stl::lower_case(words.front());
-  const auto named = [&](std::optional<StopPoint> stop) {
+  const auto named = [&](Result<StopPoint> stop) {
     if (stop) stop->name = stl::lower_case(joined(words));
     return stop;
   };
   for (const Happening& happening : kHappenings)
-    if (first == happening.word) return named(happening_stop(happening, words, *program.model, why));
-  if (first == "event") return named(event_stop(words, *program.model, why));
-  const auto place = find_place(words, program, listing, "break", why);
-  if (!place && !is_word_of_place(first)) return becoming_stop(joined(words), program, why);
-  if (!place && has_operator(joined(words))) return becoming_stop(joined(words), program, why);  // 40 > VW0
-  if (!place) return {};
+    if (first == happening.word) return named(happening_stop(happening, words, *program.model));
+  if (first == "event") return named(event_stop(words, *program.model));
+  const auto place = find_place(words, program, listing, "break");
+  if (!place && !is_word_of_place(first)) return becoming_stop(joined(words), program, place.why());
+  if (!place && has_operator(joined(words))) return becoming_stop(joined(words), program, place.why());  // 40 > VW0
+  if (!place) return place.trouble();
   note = place->note;
   return named(StopPoint{.on = On::Place, .op = place->op, .needs_power = true});
 }

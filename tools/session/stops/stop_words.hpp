@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "tools/session/past/history.hpp"
 #include "tools/session/stops/stop_point.hpp"
 #include "tools/views/program/listing.hpp"
@@ -46,22 +47,21 @@ struct NamedPlace {
 };
 
 /// A line of the program, counted over all its files, that is named by its number in its own file: `12`, of another file
-/// than the first `pump.awl:12`. Nothing, and `why`, if no instruction of that file is in it or after it; nothing, and no
-/// `why`, if the text is not of this form or names no file of the program.
-std::optional<std::uint32_t> find_program_line(std::string_view text, const Program& program, const Listing& listing,
-                                               std::string& why);
+/// than the first `pump.awl:12`. Trouble if no instruction of that file is in it or after it; with nothing to say
+/// if the text is not of this form or names no file of the program.
+Result<std::uint32_t> find_program_line(std::string_view text, const Program& program, const Listing& listing);
 
-/// `LINE`, `SBR n`, `INT n`, `LBL n`, `NETWORK n`. Nothing, and `why`, if there is no such place; `command` is named in it.
-std::optional<NamedPlace> find_place(const std::vector<std::string>& words, const Program& program, const Listing& listing,
-                                     std::string_view command, std::string& why);
+/// `LINE`, `SBR n`, `INT n`, `LBL n`, `NETWORK n`. Trouble if there is no such place; `command` is named in it.
+Result<NamedPlace> find_place(const std::vector<std::string>& words, const Program& program, const Listing& listing,
+                              std::string_view command);
 
 /// A happening, or a place: `received`, `error 0006`, `event 8 occurs`, `INT 123`. It has no number yet. `note`: as that of
 /// the place.
-std::optional<StopPoint> find_stop(const std::vector<std::string>& words, const Program& program, const Listing& listing,
-                                   std::string& why, std::string& note);
+Result<StopPoint> find_stop(const std::vector<std::string>& words, const Program& program, const Listing& listing,
+                            std::string& note);
 
-/// `0006`: of a run-time error. Nothing, and `why`, if there is no such error.
-std::optional<std::uint16_t> error_code_of(std::string_view text, std::string& why);
+/// `0006`: of a run-time error. Trouble if there is no such error.
+Result<std::uint16_t> error_code_of(std::string_view text);
 
 /// The words for places with a number, for completion: `SBR`, `LBL` …
 std::vector<std::string> place_words();

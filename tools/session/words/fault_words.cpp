@@ -24,26 +24,23 @@ std::size_t station_word(std::string_view text) {
 
 }  // namespace
 
-std::optional<InjectFault> fault_of(const std::string& text, const History& history, std::size_t station, std::string& why) {
+Result<InjectFault> fault_of(const std::string& text, const History& history, std::size_t station) {
   const std::string_view trimmed = stl::trim(text);
   const std::size_t word = station_word(trimmed);
-  if (word == std::string_view::npos) return inject_of(std::string(trimmed), why);
+  if (word == std::string_view::npos) return inject_of(std::string(trimmed));
   const std::string fault(stl::trim(trimmed.substr(0, word)));
-  auto inject = inject_of(fault, why);
-  if (!inject) return {};
+  auto inject = inject_of(fault);
+  if (!inject) return inject.trouble();
   const std::string name(trimmed.substr(word + kStation.size()));
   const serial::SharedLine& line = history.station(station).line();
   const std::string known = names_on(history.line_stations(), line);
   const LineStation* const of = known.empty() ? nullptr : find_station(history.line_stations(), line, name);
   if (known.empty())
-    why = "fault: station= is for a system; of=request or of=answer in the fault says whose characters are meant";
-  else if (!inject->fault)
-    why = "fault: none ends all faults of the line, whosever they are; leave station= out";
-  else if (!of)
-    why = fmt::format("fault: '{}' is not on this line; known: {}", stl::shortened(name), known);
-  else if (const auto cannot = why_not_of_station(serial::parse_fault(fault), of->kind == LineStation::Kind::Plc))
-    why = fmt::format("fault: {}; {}", cannot->wrong, cannot->hint);
-  if (!why.empty()) return {};
+    return Trouble{"fault: station= is for a system; of=request or of=answer in the fault says whose characters are meant"};
+  if (!inject->fault) return Trouble{"fault: none ends all faults of the line, whosever they are; leave station= out"};
+  if (!of) return trouble("fault: '{}' is not on this line; known: {}", stl::shortened(name), known);
+  if (const auto cannot = why_not_of_station(serial::parse_fault(fault), of->kind == LineStation::Kind::Plc))
+    return trouble("fault: {}; {}", cannot->wrong, cannot->hint);
   inject->of = of->name;
   return inject;
 }

@@ -4,13 +4,14 @@
 #include <optional>
 #include <string>
 
+#include "interpreter/base/result.hpp"
 #include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
 
 /// `parity:character=2`, or `none`; of a system also `parity:character=2 station=slave2`, for what that station on the line
-/// of PLC `station` sends. Returns nothing and sets `why` if it is not a fault, or cannot be that station's.
-std::optional<InjectFault> fault_of(const std::string& text, const History& history, std::size_t station, std::string& why);
+/// of PLC `station` sends. Trouble if it is not a fault, or cannot be that station's.
+Result<InjectFault> fault_of(const std::string& text, const History& history, std::size_t station);
 
 /// `on the line from now on, of what slave2 sends: parity:character=2`, and a line that describes it.
 std::string fault_text(const InjectFault& inject);

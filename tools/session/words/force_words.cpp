@@ -24,18 +24,16 @@ bool room_for(Forcing forcing, const std::vector<Assignment>& assignments) {
 
 }  // namespace
 
-std::optional<Force> force_of(const std::vector<std::string>& assignments, const Cpu& cpu, std::string& why) {
+Result<Force> force_of(const std::vector<std::string>& assignments, const Cpu& cpu) {
   Force force;
   for (const std::string& text : assignments) {
-    const auto assignment = parse_assignment(text, cpu.program(), why);
-    if (!assignment) return {};
-    if (!forcing::possible(assignment->place)) {
-      why = fmt::format(
+    const auto assignment = parse_assignment(text, cpu.program());
+    if (!assignment) return assignment.trouble();
+    if (!forcing::possible(assignment->place))
+      return trouble(
           "'{}' cannot be forced: the CPU forces points of I and Q, bytes, words and double words of V and M, and words of "
           "AI and AQ",
           stl::shortened(text));
-      return {};
-    }
     force.assignments.push_back(*assignment);
   }
   const Forcing& now = cpu.state().forcing;
@@ -44,17 +42,13 @@ std::optional<Force> force_of(const std::vector<std::string>& assignments, const
   const auto given = std::ranges::count_if(
       force.assignments, [](const Assignment& a) { return a.place.area != Area::I && a.place.area != Area::Q; });
   if (now.values == limit)
-    why = fmt::format("no room: {} values of memory are forced already, as many as the CPU can; 'unforce' releases one",
-                      limit);
-  else if (now.values == 0)
-    why = fmt::format("no room: {} values of memory given, {} is the limit", given, limit);
-  else
-    why = fmt::format("no room: {} values of memory given, {} forced already, {} is the limit; 'unforce' releases one",
-                      given, now.values, limit);
-  return {};
+    return trouble("no room: {} values of memory are forced already, as many as the CPU can; 'unforce' releases one", limit);
+  if (now.values == 0) return trouble("no room: {} values of memory given, {} is the limit", given, limit);
+  return trouble("no room: {} values of memory given, {} forced already, {} is the limit; 'unforce' releases one", given,
+                 now.values, limit);
 }
 
-std::optional<Unforce> unforce_of(const std::vector<std::string>& places, const Cpu& cpu, std::string& why) {
+Result<Unforce> unforce_of(const std::vector<std::string>& places, const Cpu& cpu) {
   const std::vector<Forced> all = forced_in(cpu);
   Unforce unforce;
   if (places.size() == 1 && stl::lower_case(places[0]) == "all") {
@@ -62,13 +56,11 @@ std::optional<Unforce> unforce_of(const std::vector<std::string>& places, const 
     return unforce;
   }
   for (const std::string& text : places) {
-    const auto range = parse_range(text, cpu.program(), why);
-    if (!range) return {};
+    const auto range = parse_range(text, cpu.program());
+    if (!range) return range.trouble();
     const Bits bits = bits_of(*range);
-    if (std::ranges::none_of(all, [&](const Forced& forced) { return bits_of(forced.place).overlaps(bits); })) {
-      why = fmt::format("{} is not forced; 'force' lists what is", range->name_of(0));
-      return {};
-    }
+    if (std::ranges::none_of(all, [&](const Forced& forced) { return bits_of(forced.place).overlaps(bits); }))
+      return trouble("{} is not forced; 'force' lists what is", range->name_of(0));
     unforce.places.push_back(*range);
   }
   return unforce;

@@ -5,16 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/cpu/cpu.hpp"
 #include "tools/session/past/actions/action.hpp"
 
 namespace s7200::tools {
 
-/// `VW10=5`, `I0.3=1`; nothing, and `why`, if one of them cannot be forced.
-std::optional<Force> force_of(const std::vector<std::string>& assignments, const Cpu& cpu, std::string& why);
+/// `VW10=5`, `I0.3=1`; trouble if one of them cannot be forced.
+Result<Force> force_of(const std::vector<std::string>& assignments, const Cpu& cpu);
 
-/// `VW10`, or `all`; nothing, and `why`, if one of them is not forced.
-std::optional<Unforce> unforce_of(const std::vector<std::string>& places, const Cpu& cpu, std::string& why);
+/// `VW10`, or `all`; trouble if one of them is not forced.
+Result<Unforce> unforce_of(const std::vector<std::string>& places, const Cpu& cpu);
 
 /// Whether the field drives it: input points, analog inputs, the potentiometers, the mode switch.
 bool is_from_field(const MemoryRange& place);

@@ -33,12 +33,12 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-std::optional<Bytes> read_request(const std::string& what, std::string& why) {
+Result<Bytes> read_request(const std::string& what) {
   const std::vector<std::string> parts = split(what, ':');
-  const auto address = modbus::parse_address(parts[0], why);
-  if (!address) return {};
+  const auto address = modbus::parse_address(parts[0]);
+  if (!address) return address.trouble();
   const auto count = parts.size() == 2 ? parse_decimal<std::uint16_t>(parts[1]) : std::optional<std::uint16_t>(1);
-  if (!count || *count == 0 || parts.size() > 2) return why = fmt::format("expected {}", kNamed), std::nullopt;
+  if (!count || *count == 0 || parts.size() > 2) return trouble("expected {}", kNamed);
   switch (address->area) {
     case Area::Coils:
       return modbus::read_coils(address->address, *count);
@@ -49,7 +49,7 @@ std::optional<Bytes> read_request(const std::string& what, std::string& why) {
     case Area::HoldingRegisters:
       return modbus::read_holding_registers(address->address, *count);
   }
-  return {};
+  return std::nullopt;
 }
 
 /// `on`, `1`, `-5`, `16#1234`
@@ -62,17 +62,17 @@ std::optional<std::uint16_t> value_of(const std::string& text, bool bit) {
   return static_cast<std::uint16_t>(*number);
 }
 
-std::optional<Bytes> write_request(const std::string& what, std::string& why) {
+Result<Bytes> write_request(const std::string& what) {
   const std::vector<std::string> parts = split(what, '=');
-  const auto address = modbus::parse_address(parts[0], why);
-  if (!address) return {};
-  if (parts.size() != 2) return why = fmt::format("expected {}", kNamed), std::nullopt;
+  const auto address = modbus::parse_address(parts[0]);
+  if (!address) return address.trouble();
+  if (parts.size() != 2) return trouble("expected {}", kNamed);
   const modbus::AreaRow& area = modbus::row_of(address->area);
-  if (!area.write_one) return why = fmt::format("{} can only be read: it is an {}", parts[0], area.singular), std::nullopt;
+  if (!area.write_one) return trouble("{} can only be read: it is an {}", parts[0], area.singular);
   std::vector<std::uint16_t> values;
   for (const std::string& text : split(parts[1], ',')) {
     const auto value = value_of(text, area.bits);
-    if (!value) return why = fmt::format("'{}' is not a value of a {}", stl::shortened(text), area.singular), std::nullopt;
+    if (!value) return trouble("'{}' is not a value of a {}", stl::shortened(text), area.singular);
     values.push_back(*value);
   }
   const std::vector<bool> bits(values.begin(), values.end());
@@ -92,35 +92,35 @@ std::string misplaced_word(const std::vector<std::string>& words) {
   return has("crc") ? "crc comes last: 01 03 00 0a 00 01 crc" : "";
 }
 
-std::optional<serial::Frame> named_frame(std::vector<std::string> words, std::uint8_t station, std::string& why) {
+Result<serial::Frame> named_frame(std::vector<std::string> words, std::uint8_t station) {
   if (words.size() == 4 && stl::lower_case(words[2]) == "station") {
     const auto number = parse_decimal<std::uint8_t>(words[3]);
-    if (!number) return why = fmt::format("'{}' is not the number of a station", stl::shortened(words[3])), std::nullopt;
+    if (!number) return trouble("'{}' is not the number of a station", stl::shortened(words[3]));
     station = *number;
     words.resize(2);
   }
-  if (words.size() != 2) return why = fmt::format("expected {}", kNamed), std::nullopt;
-  const auto pdu = stl::lower_case(words[0]) == "read" ? read_request(words[1], why) : write_request(words[1], why);
-  if (!pdu) return {};
+  if (words.size() != 2) return trouble("expected {}", kNamed);
+  const auto pdu = stl::lower_case(words[0]) == "read" ? read_request(words[1]) : write_request(words[1]);
+  if (!pdu) return pdu.trouble();
   return serial::to_frame(modbus::rtu_frame(station, *pdu));
 }
 
 }  // namespace
 
-std::optional<serial::Frame> parse_frame(const std::string& text, std::uint8_t station, std::string& why) {
+Result<serial::Frame> parse_frame(const std::string& text, std::uint8_t station) {
   std::string_view bytes = stl::trim(text);
   const std::string lower = stl::lower_case(bytes);
-  if (lower.starts_with("read ") || lower.starts_with("write ")) return named_frame(stl::split_words(bytes), station, why);
+  if (lower.starts_with("read ") || lower.starts_with("write ")) return named_frame(stl::split_words(bytes), station);
   const bool crc = lower.ends_with(" crc");
   if (crc) bytes = stl::trim(bytes.substr(0, bytes.size() - 4));
   serial::ParsedFrame parsed = parse_hex_or_quoted(bytes);
   const bool quoted = bytes.starts_with('\'') || bytes.starts_with('"');
   if (!parsed.ok()) {
-    why = quoted ? "" : misplaced_word(stl::split_words(bytes));
-    if (why.empty()) why = fmt::format("column {}: {}", parsed.errors[0].column, parsed.errors[0].message);
-    return {};
+    if (std::string why = quoted ? "" : misplaced_word(stl::split_words(bytes)); !why.empty())
+      return Trouble{std::move(why)};
+    return trouble("column {}: {}", parsed.errors[0].column, parsed.errors[0].message);
   }
-  if (parsed.frame.empty()) return why = "there is nothing to send", std::nullopt;
+  if (parsed.frame.empty()) return Trouble{"there is nothing to send"};
   if (crc) modbus::append_crc(parsed.frame);
   return parsed.frame;
 }

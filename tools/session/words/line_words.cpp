@@ -20,18 +20,15 @@ constexpr Time kTurnaround = 200 * kMillisecond;
 
 }  // namespace
 
-std::optional<SendFrame> send_of(const serial::Frame& frame, serial::Simulation& simulation,
-                                 const serial::MasterSettings& master, std::string& why) {
-  if (!simulation.has_master()) return why = kNoRoomForMaster, std::nullopt;
+Result<SendFrame> send_of(const serial::Frame& frame, serial::Simulation& simulation, const serial::MasterSettings& master) {
+  if (!simulation.has_master()) return Trouble{std::string(kNoRoomForMaster)};
   const SerialFormat format = master.over(simulation.port_format());
   if (serial::has_wrong_parity(frame) && format.parity == Parity::None)
-    return why = "a byte with wrong parity (p) needs a format with parity", std::nullopt;
+    return Trouble{"a byte with wrong parity (p) needs a format with parity"};
   if (simulation.master().busy())
-    return why =
-               "the last frame is still under way or waiting for its answer; 'continue' runs to its end, 'send cancel' "
-               "gives "
-               "it up",
-           std::nullopt;
+    return Trouble{
+        "the last frame is still under way or waiting for its answer; 'continue' runs to its end, 'send cancel' gives it "
+        "up"};
   SendFrame send{format, master.request(frame)};
   if (is_broadcast(serial::bytes_of(frame))) send.request.timeout = std::min(send.request.timeout, kTurnaround);
   return send;
@@ -46,9 +43,9 @@ std::string sent_text(const SendFrame& send, const serial::Simulation& simulatio
   return text;
 }
 
-std::optional<CancelRequest> cancel_of(serial::Simulation& simulation, std::string& why) {
+Result<CancelRequest> cancel_of(serial::Simulation& simulation) {
   if (!simulation.has_master() || !simulation.master().asks())
-    return why = "no request of the simulated master is under way on this line", std::nullopt;
+    return Trouble{"no request of the simulated master is under way on this line"};
   const serial::Requester::State& master = simulation.master().state();
   const Time end = master.exchange.request_end;
   const bool coming_in = end != 0 && simulation.master_uart().state().start_edge < simulation.time();
@@ -72,12 +69,11 @@ std::string cancelled_text(const CancelRequest& cancel, const serial::Simulation
                      exchange.request.size(), moment_text(cancel.sent_until), frame);
 }
 
-std::optional<InjectFault> inject_of(const std::string& text, std::string& why) {
+Result<InjectFault> inject_of(const std::string& text) {
   if (stl::lower_case(text) == "none") return InjectFault{};
   const serial::ParsedFault parsed = serial::parse_fault(text);
   if (parsed.ok()) return InjectFault{parsed.fault};
-  why = fmt::format("fault, column {}: {}", parsed.error->column, parsed.error->message);
-  return {};
+  return trouble("fault, column {}: {}", parsed.error->column, parsed.error->message);
 }
 
 std::string injected_text(const InjectFault& inject) {

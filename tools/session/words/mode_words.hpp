@@ -5,12 +5,13 @@
 #include <string>
 #include <string_view>
 
+#include "interpreter/base/result.hpp"
 #include "tools/session/past/actions/action.hpp"
 
 namespace s7200::tools {
 
-/// What `run` or `stop` asks of a CPU with power. Returns nothing and sets `why` for other words, and where the CPU cannot
+/// What `run` or `stop` asks of a CPU with power. Trouble for other words, and where the CPU cannot
 /// go there.
-std::optional<SetMode> mode_of(std::string_view word, const serial::Simulation& simulation, std::string& why);
+Result<SetMode> mode_of(std::string_view word, const serial::Simulation& simulation);
 
 }  // namespace s7200::tools

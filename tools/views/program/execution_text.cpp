@@ -50,9 +50,7 @@ std::string remark_on(std::uint32_t op, const Program& program) {
   std::string text;
   for (const stl::Operand& operand : program.statement(op).operands) {
     const auto* address = std::get_if<stl::Address>(&operand.value);
-    std::string why;
-    const auto range =
-        address ? parse_range(stl::to_text(stl::Operand{.value = *address}), *program.model, why) : std::nullopt;
+    const auto range = address ? parse_range(stl::to_text(stl::Operand{.value = *address}), *program.model) : std::nullopt;
     const std::string symbol = range ? symbol_text(program, *range) : "";
     if (!symbol.empty()) text += fmt::format("{}{} {}", text.empty() ? "  [" : ", ", range->name_of(0), symbol);
   }

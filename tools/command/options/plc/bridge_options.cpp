@@ -16,10 +16,10 @@
 
 namespace s7200::tools {
 
-std::unique_ptr<Bridge> make_bridge(BridgeKind kind, const std::string& where, const serial::LineSettings& line,
-                                    Time timeout, std::string& why) {
-  std::optional<ListenAddress> address;
-  if (row_of(kind).place == kPortPlace && !(address = parse_listen_address(where, why))) return nullptr;
+Result<std::unique_ptr<Bridge>> make_bridge(BridgeKind kind, const std::string& where, const serial::LineSettings& line,
+                                            Time timeout) {
+  const auto address = row_of(kind).place == kPortPlace ? parse_listen_address(where) : ListenAddress{};
+  if (!address) return address.trouble();
   switch (kind) {
     case BridgeKind::Pty:
       return make_pty_bridge(where, line);
@@ -34,7 +34,7 @@ std::unique_ptr<Bridge> make_bridge(BridgeKind kind, const std::string& where, c
     case BridgeKind::Device:
       return make_device_bridge(where);
   }
-  return nullptr;
+  return std::nullopt;
 }
 
 LiveMessages print_live_messages() {
@@ -77,10 +77,10 @@ bool BridgeOptions::prepare() {
   }
   if (!chosen) return true;
   const std::string& there = where(chosen->kind);
-  std::string why;
-  bridge_ = make_bridge(chosen->kind, there, line_, timeout_, why);
-  if (!bridge_) print_error(fmt::format("{} {}: {}", chosen->option, stl::shortened(there), why));
-  return bridge_ != nullptr;
+  auto bridge = make_bridge(chosen->kind, there, line_, timeout_);
+  if (!bridge) return print_error(fmt::format("{} {}: {}", chosen->option, stl::shortened(there), bridge.why())), false;
+  bridge_ = *std::move(bridge);
+  return true;
 }
 
 }  // namespace s7200::tools

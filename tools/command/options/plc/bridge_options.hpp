@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "interpreter/base/result.hpp"
 #include "tools/bridge/bridge.hpp"
 #include "tools/command/options/plc/line_options.hpp"
 #include "tools/plan/bridge_kinds.hpp"
@@ -19,9 +20,9 @@ namespace s7200::tools {
 /// Where it serves, and its notes, on standard error.
 LiveMessages print_live_messages();
 
-/// Null, and `why`, if it cannot be there. `timeout`: how long those of Modbus wait for an answer to start.
-std::unique_ptr<Bridge> make_bridge(BridgeKind kind, const std::string& where, const serial::LineSettings& line,
-                                    Time timeout, std::string& why);
+/// Trouble if it cannot be there. `timeout`: how long those of Modbus wait for an answer to start.
+Result<std::unique_ptr<Bridge>> make_bridge(BridgeKind kind, const std::string& where, const serial::LineSettings& line,
+                                            Time timeout);
 
 /// Before masters lose patience: libmodbus waits 500 ms.
 inline constexpr Time kBridgeTimeout = 400 * kMillisecond;

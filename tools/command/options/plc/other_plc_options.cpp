@@ -80,10 +80,9 @@ void check_model(const Protocol& protocol, std::string_view model) {
 
 std::unique_ptr<westinghouse::Plc> OtherPlcOptions::make(const Protocol& protocol, std::string_view model) const {
   check_model(protocol, model);
-  std::string why;
-  auto plc = make_other_plc(*protocol.plcs, model, settings_, why);
-  if (!plc) throw std::invalid_argument(why);
-  return plc;
+  auto plc = make_other_plc(*protocol.plcs, model, settings_);
+  if (!plc) throw std::invalid_argument(plc.why());
+  return *std::move(plc);
 }
 
 }  // namespace s7200::tools

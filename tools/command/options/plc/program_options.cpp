@@ -53,17 +53,9 @@ void add_no_skip_option(CLI::App& app, bool& every_scan) {
 
 void add_repair_option(CLI::App& app, Repairs& repairs) {
   app.add_option_function<std::string>(
-         "--repair",
-         [&repairs](const std::string& text) {
-           std::string why;
-           repairs = parse_repairs(text, why);
-         },
+         "--repair", [&repairs](const std::string& text) { repairs = parse_repairs(text).value_or(Repairs{}); },
          "slips of a published listing to repair, by their numbers as `s7200 check` names them: R1,R2 or all")
-      ->check([](const std::string& text) {
-        std::string why;
-        parse_repairs(text, why);
-        return why;
-      })
+      ->check([](const std::string& text) { return parse_repairs(text).why(); })
       ->type_name("LIST");
 }
 
@@ -216,8 +208,7 @@ std::string form_of_capture(std::string_view bytes) {
 std::string form_of_recording(std::string_view bytes, const std::optional<SourceText>& text) {
   constexpr std::string_view kPlainLog = "text";
   constexpr std::size_t kEnoughOfText = 1 << 20;
-  std::string why;
-  const auto recording = read_recording(is_text(bytes) ? bytes.substr(0, kEnoughOfText) : bytes, {}, why);
+  const auto recording = read_recording(is_text(bytes) ? bytes.substr(0, kEnoughOfText) : bytes, {});
   if (!recording) return form_of_capture(bytes);
   const bool any =
       !std::ranges::all_of(recording->frames, [](const RecordedFrame& frame) { return frame.doubt != nullptr; });
@@ -235,20 +226,19 @@ std::optional<SourceText> read_program_text(const std::string& path, bool force_
                     path));
     return {};
   }
-  std::string name, why;
+  std::string name;
   const auto bytes = read_input(path, name);
   if (!bytes) return {};
-  auto text = read_source(*bytes, name, why, force_document);
-  const bool program =
-      text && (text->kind == SourceKind::Blocks || has_statements(*text) || begins_as_step7(*bytes) ||
-               other_dialect(stl::PlainText(*bytes).text()));
-  if (const std::string form = program ? std::string() : form_of_recording(*bytes, text); !form.empty()) {
+  auto text = read_source(*bytes, name, force_document);
+  const bool program = text && (text->kind == SourceKind::Blocks || has_statements(*text) || begins_as_step7(*bytes) ||
+                                other_dialect(stl::PlainText(*bytes).text()));
+  if (const std::string form = program ? std::string() : form_of_recording(*bytes, text.if_any()); !form.empty()) {
     print_error(
         fmt::format("cannot read {0}: it is a recording of a line ({1}), not a program: s7200 decode {0}", name, form));
     return {};
   }
-  if (!text) print_error(fmt::format("cannot read {}: {}", name, why));
-  return text;
+  if (!text) print_error(fmt::format("cannot read {}: {}", name, text.why()));
+  return std::move(text).if_any();
 }
 
 std::optional<SourceText> read_project(const std::string& path, const std::vector<std::string>& parts) {

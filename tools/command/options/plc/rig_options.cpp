@@ -116,13 +116,14 @@ bool RigOptions::load_all(const CLI::App& verb, const ProgramOptions& program, i
 }
 
 /// Who looks at all PLCs on several lines begins with the first one.
-std::optional<Spot> RigOptions::place_in_system(std::string& why) const {
+Result<Spot> RigOptions::place_in_system() const {
   if (without_s7200()) {
-    const auto line = find_line(plan_, at_, why);
-    return line ? std::optional(Spot{.line = *line}) : std::nullopt;
+    const auto line = find_line(plan_, at_);
+    if (!line) return line.trouble();
+    return Spot{.line = *line};
   }
   if (looks_at_all_ && at_.empty() && plan_.lines.size() > 1) return spots_of_plcs(plan_).front();
-  return find_spot(plan_, at_, why);
+  return find_spot(plan_, at_);
 }
 
 std::string RigOptions::note_on_first_station() const {
@@ -193,10 +194,9 @@ bool RigOptions::load_system(const CLI::App& verb, const ProgramOptions& program
 
 /// Finds the place of the master, or of the PLC that is looked at first. False after a message.
 bool RigOptions::find_place(int& exit_code) {
-  std::string why;
-  const auto spot = place_in_system(why);
+  const auto spot = place_in_system();
   if (spot) return spot_ = *spot, true;
-  print_error(fmt::format("{}: {} (--at NAME)", path_, why));
+  print_error(fmt::format("{}: {} (--at NAME)", path_, spot.why()));
   exit_code = kUnusable;
   return false;
 }

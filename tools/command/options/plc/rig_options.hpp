@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "tools/command/options/plc/fault_options.hpp"
 #include "tools/command/options/plc/program_options.hpp"
 #include "tools/rig/files/recorded_rig.hpp"
@@ -137,7 +138,7 @@ class RigOptions {
                    int& exit_code);
   bool find_place(int& exit_code);
   RigSurroundings surroundings(const std::string& link, std::vector<Spot> spots) const;
-  std::optional<Spot> place_in_system(std::string& why) const;
+  Result<Spot> place_in_system() const;
   bool read_settings(const Program& program);
   bool may_have_standard_output(bool json) const;
 

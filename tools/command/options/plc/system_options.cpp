@@ -34,9 +34,8 @@ bool accept_stand_ins_of(const SystemPlan& plan, bool refused) {
 std::optional<SystemPlan> load_system(const ProgramOptions& options, int& exit_code) {
   const std::string& path = options.path;
   exit_code = kUnusable;
-  std::string why;
-  const auto text = read_text(path, why);
-  if (!text) return print_error(fmt::format("cannot read {}: {}", path, why)), std::nullopt;
+  const auto text = read_text(path);
+  if (!text) return print_error(fmt::format("cannot read {}: {}", path, text.why())), std::nullopt;
   SystemFile file = read_system(*text, path, host_files());
   for (const SystemFile::Text& program : file.programs) print_diagnostics(program.diagnostics, *program.source);
   print_diagnostics(file.file.diagnostics, *file.file.source);

@@ -9,6 +9,7 @@
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/command/terminal/terminal.hpp"
+#include "tools/command/testing/test_output.hpp"
 #include "tools/coverage/coverage_files.hpp"
 
 namespace s7200::tools {
@@ -24,13 +25,6 @@ double parse_percent(std::string given) {
   return *percent;
 }
 
-bool write(const std::optional<Destination>& to, const std::string& text) {
-  std::string why;
-  if (!to || write_result(*to, text, why)) return true;
-  print_error(why);
-  return false;
-}
-
 }  // namespace
 
 void CoverageOptions::add_to(CLI::App& app, const char* group) {
@@ -44,11 +38,12 @@ void CoverageOptions::add_to(CLI::App& app, const char* group) {
 }
 
 void CoverageOptions::claim(WrittenFiles& files) {
-  const auto claim = [&](std::string_view option, const std::string& path, const FileKind& kind) {
-    std::string why;
-    auto place = path.empty() ? std::nullopt : files.claim(option, path, kind, Replace::Own, why);
-    if (!path.empty() && !place) throw std::invalid_argument(why);
-    return place;
+  const auto claim = [&](std::string_view option, const std::string& path,
+                         const FileKind& kind) -> std::optional<Destination> {
+    if (path.empty()) return {};
+    auto place = files.claim(option, path, kind, Replace::Own);
+    if (!place) throw std::invalid_argument(place.why());
+    return *std::move(place);
   };
   if (page_ == "-" || lcov_ == "-")
     throw std::invalid_argument("--coverage-html and --coverage-lcov write files; '-' is none");
@@ -65,8 +60,8 @@ void CoverageOptions::add_to(nlohmann::ordered_json& results, const CoverageOfPr
 bool CoverageOptions::show(const CoverageOfPrograms& coverage, bool json) const {
   if (shown_ && !json)
     for (const ProgramCoverage& each : coverage.programs()) fmt::print("\n{}", coverage_text(each));
-  const bool page_written = write(page_to_, coverage_page(coverage));
-  return write(lcov_to_, coverage_lcov(coverage)) && page_written;
+  const bool page_written = write_wanted(page_to_, coverage_page(coverage));
+  return write_wanted(lcov_to_, coverage_lcov(coverage)) && page_written;
 }
 
 bool CoverageOptions::is_enough(const CoverageOfPrograms& coverage) const {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "tools/command/terminal/terminal.hpp"
+#include "tools/command/testing/test_output.hpp"
 
 namespace s7200::tools {
 
@@ -21,9 +22,9 @@ void ProfileOptions::add_to(CLI::App& app, const char* group) {
 void ProfileOptions::claim(WrittenFiles& files) {
   if (folded_.empty()) return;
   if (folded_ == "-") throw std::invalid_argument("--profile-folded writes a file; '-' is none");
-  std::string why;
-  folded_to_ = files.claim("--profile-folded", folded_, {"folded stacks of --profile-folded", "system "}, Replace::Own, why);
-  if (!folded_to_) throw std::invalid_argument(why);
+  auto claimed = files.claim("--profile-folded", folded_, {"folded stacks of --profile-folded", "system "}, Replace::Own);
+  if (!claimed) throw std::invalid_argument(claimed.why());
+  folded_to_ = *std::move(claimed);
 }
 
 void ProfileOptions::add_to(nlohmann::ordered_json& results, const ProfileOfPrograms& profile) const {
@@ -36,10 +37,7 @@ bool ProfileOptions::show(const ProfileOfPrograms& profile, bool json, const std
   if (shown_ && !json)
     for (const Profile& each : profile.programs()) fmt::print("\n{}", profile_text(each));
   if (shown_ && !json && !runs.empty()) fmt::print("\n{}", profile_by_run_text(runs));
-  std::string why;
-  if (!folded_to_ || write_result(*folded_to_, profile_folded(profile), why)) return true;
-  print_error(why);
-  return false;
+  return !folded_to_ || write_wanted(folded_to_, profile_folded(profile));
 }
 
 }  // namespace s7200::tools

@@ -170,14 +170,13 @@ std::optional<ReadRecording> read_file(const RecordingOptions& options) {
   const auto bytes = read_input(options.file, read.name);
   if (interrupted()) return read;
   if (!bytes) return {};
-  std::string why;
   ReadingChoices choices = options.reading;
   choices.line = options.line;
   choices.usual = options.format();
   choices.stop = interruption();
-  auto recording = read_recording(*bytes, choices, why);
+  auto recording = read_recording(*bytes, choices);
   if (!recording && interrupted()) return read;
-  if (!recording) return print_error(fmt::format("{}: {}", read.name, why)), std::nullopt;
+  if (!recording) return print_error(fmt::format("{}: {}", read.name, recording.why())), std::nullopt;
   read.recording = std::move(*recording);
   const bool over_tcp = read.recording.over_tcp;
   const SerialFormat format = read.recording.line.value_or(choices.usual);

@@ -47,16 +47,16 @@ bool ReportOption::prepare() {
   if (!wanted()) return true;
   const fs::path folder = file_path(own_folder());
   const std::string path = page_file(folder).string();
-  std::string why;
-  const auto page = read_file(path, why);
+  const auto page = read_file(path);
   if (!page)
-    return print_error(fmt::format("--report needs the page with its engine, and cannot read {}: {}; {}", path, why,
+    return print_error(fmt::format("--report needs the page with its engine, and cannot read {}: {}; {}", path, page.why(),
                                    how_to_make_the_page(folder.parent_path()))),
            false;
   page_ = *page;
   WrittenFiles files;
-  to_ = files.claim("--report", path_, {"a report of s7200", std::string(kBeginning)}, Replace::Own, why);
-  if (!to_) print_error(why);
+  auto claimed = files.claim("--report", path_, {"a report of s7200", std::string(kBeginning)}, Replace::Own);
+  if (!claimed) print_error(claimed.why());
+  to_ = std::move(claimed).if_any();
   return to_.has_value();
 }
 
@@ -83,7 +83,7 @@ bool ReportOption::write_conversation(const nlohmann::ordered_json& decoded) con
 
 bool ReportOption::write_page(const std::function<std::string()>& page) const {
   try {
-    return write_result(to_, page());
+    return write_wanted(to_, page());
   } catch (const std::runtime_error& error) {
     print_error(fmt::format("cannot write {}: {}", stl::printable(path_), error.what()));
     return false;

@@ -137,11 +137,12 @@ void TestOptions::check() const {
 TestOptions::Destinations TestOptions::claim_files() {
   Destinations to;
   WrittenFiles files;
-  const auto claim = [&](std::string_view option, const std::string& path, const FileKind& kind) {
-    std::string why;
-    auto place = path.empty() ? std::nullopt : files.claim(option, path, kind, Replace::Own, why);
-    if (!path.empty() && !place) throw std::invalid_argument(why);
-    return place;
+  const auto claim = [&](std::string_view option, const std::string& path,
+                         const FileKind& kind) -> std::optional<Destination> {
+    if (path.empty()) return {};
+    auto place = files.claim(option, path, kind, Replace::Own);
+    if (!place) throw std::invalid_argument(place.why());
+    return *std::move(place);
   };
   to.record = claim("--record", record, {"a transcript", std::string(kTranscriptBeginning)});
   if (to.record && to.record->replaces_content() && !force)

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "interpreter/base/file_path.hpp"
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/program/ladder/networks.hpp"
@@ -25,7 +26,7 @@ namespace {
 
 using On = StopPoint::On;
 using MakeStops = std::function<std::vector<StopPoint>(const Json& wanted, Json& answer)>;
-using StopOfStation = std::function<std::optional<StopPoint>(std::string& why)>;
+using StopOfStation = std::function<Result<StopPoint>()>;
 
 /// `5`, `>= 5`, `> 4`: the first hit that stops.
 std::uint64_t first_hit(const std::string& text) {
@@ -61,23 +62,22 @@ StopPoint stop_at(Conversation& talk, std::uint32_t op) {
 
 StopPoint with_conditions(Conversation& talk, StopPoint stop, const Json& wanted) {
   const Program& program = talk.cpu().program();
-  std::string why;
   if (is_wanted(wanted, "condition")) {
     auto condition = text_at(wanted, "condition");
     if (take_always(condition)) {
-      if (why = refused_option(kAlways, stop); !why.empty()) throw Refused(why);
+      if (const std::string why = refused_option(kAlways, stop); !why.empty()) throw Refused(why);
       stop.needs_power = false;
     }
     if (!condition.empty()) {
-      const auto expression = Expression::parse(condition, program, why);
-      if (!expression) throw Refused(why);
+      const auto expression = Expression::parse(condition, program);
+      if (!expression) throw Refused(expression.why());
       stop.condition = *expression;
     }
   }
   if (is_wanted(wanted, "hitCondition")) stop.from_hit = first_hit(text_at(wanted, "hitCondition"));
   if (is_wanted(wanted, "logMessage")) {
     stop.log = text_at(wanted, "logMessage");
-    if (!check_message(stop.log, program, why)) throw Refused(why);
+    if (const auto done = check_message(stop.log, program); !done) throw Refused(done.why());
   }
   return stop;
 }
@@ -130,9 +130,8 @@ std::vector<StopPoint> at_all_stations(Conversation& talk, const Json& wanted, J
   std::string why_none;
   for (std::size_t station = 0; station < talk.stations(); ++station) {
     const LookAt look(talk, station);
-    std::string why;
-    auto stop = find(why);
-    if (!stop && why_none.empty()) why_none = why;
+    auto stop = find();
+    if (!stop && why_none.empty()) why_none = stop.why();
     if (!stop) continue;
     stop->station = station;
     if (stop->on == On::Place && stops.empty()) {
@@ -153,16 +152,14 @@ std::vector<StopPoint> line_stops(Conversation& talk, const std::string& path, c
   if (talk.line_of_client(wanted_line) > *lines)
     throw Refused(fmt::format("{} has no line {}; its last one is {}", file_path(path).filename().string(), wanted_line,
                               talk.client_line(*lines)));
-  return at_all_stations(talk, wanted, answer, [&](std::string& why) -> std::optional<StopPoint> {
+  return at_all_stations(talk, wanted, answer, [&]() -> Result<StopPoint> {
     const auto line = talk.sources().line_in(path, talk.line_of_client(wanted_line));
     const auto op = line ? talk.listing().op_from_line(*line) : std::nullopt;
     const stl::Source& source = talk.cpu().program().source;
     const auto file_of = [&](std::uint32_t of_program) { return &stl::in_file(source, of_program).file; };
-    if (line && (!op || file_of(talk.listing().line_of(*op)) != file_of(*line))) {
-      why = fmt::format("{} has no instruction in line {} or after it", file_path(path).filename().string(), wanted_line);
-      return {};
-    }
-    if (!op) return {};
+    if (line && (!op || file_of(talk.listing().line_of(*op)) != file_of(*line)))
+      return trouble("{} has no instruction in line {} or after it", file_path(path).filename().string(), wanted_line);
+    if (!op) return std::nullopt;
     if (talk.listing().line_of(*op) != *line)
       answer["message"] = fmt::format("line {} has no instruction; this is the next one", wanted_line);
     return stop_at(talk, *op);
@@ -183,11 +180,11 @@ std::vector<StopPoint> function_stops(Conversation& talk, const Json& wanted, Js
   for (const InterruptEvent& event : all_events())
     if (stl::lower_case(event.cause) == stl::lower_case(stl::trim(name)))
       words = {"event", std::to_string(event.number), "served"};
-  return at_all_stations(talk, wanted, answer, [&](std::string& why) {
+  return at_all_stations(talk, wanted, answer, [&] {
     const bool is_main = stl::lower_case(name) == "main";
     std::string note;
     auto stop = find_stop(is_main ? std::vector{std::to_string(talk.listing().line_of(0))} : words, talk.cpu().program(),
-                          talk.listing(), why, note);
+                          talk.listing(), note);
     if (stop) stop->name = name;
     return stop;
   });
@@ -242,14 +239,14 @@ Json data_breakpoint_info(Conversation& talk, const Json& arguments) {
     for (const AreaInfo& area : all_areas())
       if (area.base == place->begin && area.element == 0) text = fmt::format("{}B{}", area.name, place->at - place->begin);
   }
-  std::string why;
-  const auto where = parse_place(text, talk.cpu().program(), why);
+  const auto where = parse_place(text, talk.cpu().program());
   auto range = where ? range_now(*where, talk.cpu()) : std::nullopt;
-  if (!range) return {{"dataId", nullptr}, {"description", where ? text + " points nowhere" : why}};
+  if (!range) return {{"dataId", nullptr}, {"description", where ? text + " points nowhere" : where.why()}};
   if (const auto bytes = number_at<std::uint32_t>(arguments, "bytes", kWhole<std::uint32_t>, 0); bytes > 0) {
     text = fmt::format("{}B{}:{}", info(range->area).name, range->number, bytes);
-    range = parse_range(text, talk.cpu().program(), why);
-    if (!range) return {{"dataId", nullptr}, {"description", why}};
+    const auto bytes_there = parse_range(text, talk.cpu().program());
+    if (!bytes_there) return {{"dataId", nullptr}, {"description", bytes_there.why()}};
+    range = *bytes_there;
   } else if (where->pointer || text.starts_with('"')) {
     text = range->count > 1 ? fmt::format("{}:{}", range->name_of(0), range->count) : range->name_of(0);
   }
@@ -268,9 +265,8 @@ std::vector<StopPoint> data_stops(Conversation& talk, const Json& wanted) {
   if (!of) throw Refused(fmt::format("'{}' is of no station of this system", stl::shortened(id)));
   const LookAt look(talk, of->station);
   const std::string &name = of->reference, access = text_at(wanted, "accessType", "write");
-  std::string why;
-  const auto range = parse_range(name, talk.cpu().program(), why);
-  if (!range) throw Refused(why);
+  const auto range = parse_range(name, talk.cpu().program());
+  if (!range) throw Refused(range.why());
   if (access != "read" && access != "write" && access != "readWrite")
     throw Refused(fmt::format("accessType: '{}' is not read, write or readWrite", stl::shortened(access)));
   const On written = stl::lower_case(id).ends_with(" write") ? On::Write : On::Change;
@@ -293,10 +289,9 @@ std::vector<StopPoint> exception_stops(const Json& wanted) {
   std::ranges::replace(codes, ',', ' ');
   std::vector<StopPoint> stops;
   for (const std::string& text : stl::split_words(codes)) {
-    std::string why;
-    const auto code = error_code_of(text, why);
-    if (!code) throw Refused(why);
-    stops.push_back({.on = *filter->on, .code = code, .name = fmt::format("{} {}", filter->name, text)});
+    const auto code = error_code_of(text);
+    if (!code) throw Refused(code.why());
+    stops.push_back({.on = *filter->on, .code = *code, .name = fmt::format("{} {}", filter->name, text)});
   }
   if (stops.empty()) stops.push_back({.on = *filter->on, .name = filter->name});
   return stops;

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/joined.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
@@ -202,10 +203,9 @@ Json run_command(Conversation& talk, const std::string& request, const Json& arg
 bool is_command(const std::string& line, const Program& program) {
   const std::vector<std::string> commands = commands_in(line);
   const Words words = commands.empty() ? Words() : command_words(commands.front());
-  std::string why;
-  const CommandRow* const command = words.empty() ? nullptr : find_command(words.front(), why);
+  const auto command = words.empty() ? Trouble{} : find_command(words.front());
   if (!command) return false;
-  return stl::lower_case(words.front()) == command->name || !Expression::parse(commands.front(), program, why);
+  return stl::lower_case(words.front()) == command->name || !Expression::parse(commands.front(), program);
 }
 
 Json console(Conversation& talk, const std::string& line) {

@@ -78,9 +78,8 @@ Json initialize(Conversation& talk, const Json& arguments) {
 void read_frames(Conversation& talk, const Json& arguments) {
   talk.begun.frames.clear();
   for (const std::string& text : texts_at(arguments, "send")) {
-    std::string why;
-    const auto frame = parse_frame(text, talk.begun.slave, why);
-    if (!frame) throw Refused(fmt::format("'{}': {}", stl::shortened(text), why));
+    const auto frame = parse_frame(text, talk.begun.slave);
+    if (!frame) throw Refused(fmt::format("'{}': {}", stl::shortened(text), frame.why()));
     talk.begun.frames.push_back(*frame);
   }
   const std::string after = text_at(arguments, "sendAfter", "");

@@ -104,9 +104,8 @@ Json write_memory(Conversation& talk, const Json& arguments) {
 }
 
 MemoryRange range_for(Conversation& talk, const std::string& expression) {
-  std::string why;
-  const auto place = parse_place(expression, talk.cpu().program(), why);
-  if (!place) throw Refused(why);
+  const auto place = parse_place(expression, talk.cpu().program());
+  if (!place) throw Refused(place.why());
   const auto range = range_now(*place, talk.cpu());
   if (!range) throw Refused(fmt::format("{} points nowhere", expression));
   return *range;

@@ -164,8 +164,8 @@ Json loaded_sources(Conversation& talk, const Json&) {
 }
 
 Json evaluated(Conversation& talk, const std::string& expression, bool hex) {
-  std::string why, why_no_expression;
-  if (const auto place = parse_place(expression, talk.cpu().program(), why)) {
+  const auto place = parse_place(expression, talk.cpu().program());
+  if (place) {
     const auto range = range_now(*place, talk.cpu());
     if (!range) throw Refused(text_of_bad_pointer(talk, expression, place->range));
     const Variable variable = variable_of(talk.cpu(), *range, expression);
@@ -174,11 +174,11 @@ Json evaluated(Conversation& talk, const std::string& expression, bool hex) {
             {"variablesReference", 0},
             {"memoryReference", at_station(variable.memory, talk.looks_at())}};
   }
-  const auto parsed = Expression::parse(expression, talk.cpu().program(), why_no_expression);
+  const auto parsed = Expression::parse(expression, talk.cpu().program());
   const bool one_word = expression.find_first_of(" (+-/<>=&") == std::string::npos;
-  if (!parsed) throw Refused(one_word ? why : why_no_expression);
-  const auto value = parsed->value(talk.cpu(), why);
-  if (!value) throw Refused("cannot be computed: " + why);
+  if (!parsed) throw Refused(one_word ? place.why() : parsed.why());
+  const auto value = parsed->value(talk.cpu());
+  if (!value) throw Refused("cannot be computed: " + value.why());
   const auto bits = bits_of(*value);
   const std::string text = hex && bits ? fmt::format("16#{:X}", *bits) : number_text(*value);
   return {{"result", text}, {"type", value->real ? "REAL" : "DINT"}, {"variablesReference", 0}};
@@ -232,10 +232,9 @@ std::string resolved_text(Conversation& talk, std::uint32_t number) {
   std::string text = stl::to_text(statement), resolved;
   for (std::size_t i = 0; i < std::min<std::size_t>(statement.operands.size(), op.operand.size()); ++i) {
     if (!std::holds_alternative<stl::Indirect>(statement.operands[i].value)) continue;
-    std::string why;
     const std::string pointer = stl::to_text(statement.operands[i]);
     static constexpr std::string_view kWidths[] = {"", "", ":word", "", ":dword"};
-    const auto place = parse_place(pointer + std::string(kWidths[std::min<std::size_t>(op[i].width, 4)]), program, why);
+    const auto place = parse_place(pointer + std::string(kWidths[std::min<std::size_t>(op[i].width, 4)]), program);
     const auto range = place ? range_now(*place, talk.cpu()) : std::nullopt;
     resolved += fmt::format("{} = {}, ", pointer, range ? range->name_of(0) : "nowhere");
   }

@@ -361,9 +361,8 @@ Json go_to(Conversation& talk, const Json& arguments) {
 }
 
 Json go_to_moment(Conversation& talk, const Json& arguments) {
-  std::string why;
-  const auto time = parse_moment(text_at(arguments, "time"), talk.debuggee->history(), why);
-  if (!time) throw Refused(why);
+  const auto time = parse_moment(text_at(arguments, "time"), talk.debuggee->history());
+  if (!time) throw Refused(time.why());
   talk.after_response([&talk, to = *time] {
     go_to_parsed(talk.debuggee->history(), to);
     stopped_at(talk, "goto", fmt::format("at {}", moment_text(talk.simulation().time())));

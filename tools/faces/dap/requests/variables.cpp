@@ -36,8 +36,7 @@ constexpr Area kShown[] = {Area::I, Area::Q, Area::M,  Area::V,  Area::SM, Area:
                            Area::T, Area::C, Area::HC, Area::AI, Area::AQ, Area::L};
 
 std::optional<MemoryRange> range_of(const std::string& text, const Program& program) {
-  std::string why;
-  return parse_range(text, program, why);
+  return parse_range(text, program).if_any();
 }
 
 std::string_view type_of(const MemoryRange& range) {

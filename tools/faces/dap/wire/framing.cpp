@@ -9,14 +9,14 @@
 
 namespace s7200::tools::dap {
 
-std::optional<std::string> FrameReader::next(std::string& why) {
-  if (lost_ && !find_header()) return {};
-  if (!header_complete_ && !read_header(why)) {
-    lost_ = !why.empty();
+Result<std::string> FrameReader::next() {
+  if (lost_ && !find_header()) return std::nullopt;
+  if (const auto header = header_complete_ ? Result<>() : read_header(); !header) {
+    lost_ = !header.why().empty();
     if (lost_) begin_message();
-    return {};
+    return header.trouble();
   }
-  if (buffer_.size() < *length_) return {};
+  if (buffer_.size() < *length_) return std::nullopt;
   std::string content = buffer_.substr(0, *length_);
   buffer_.erase(0, *length_);
   begin_message();
@@ -47,47 +47,38 @@ bool FrameReader::find_header() {
   return !lost_;
 }
 
-/// Whether all of it has come.
-bool FrameReader::read_header(std::string& why) {
-  while (why.empty()) {
+/// As long as not all of it has come, there is trouble without a word.
+Result<> FrameReader::read_header() {
+  for (;;) {
     const std::size_t end = buffer_.find('\n');
     if (header_bytes_ + std::min(end, buffer_.size()) > kLongestHeader) {
-      why = fmt::format("the header of a message is longer than {} bytes", kLongestHeader);
       buffer_.erase(0, std::min(end, kLongestHeader));
-      return false;
+      return trouble("the header of a message is longer than {} bytes", kLongestHeader);
     }
-    if (end == std::string::npos) return false;
+    if (end == std::string::npos) return Trouble{};
     const std::string line = buffer_.substr(0, end);
     buffer_.erase(0, end + 1);
     header_bytes_ += end + 1;
-    if (!line.ends_with('\r')) {
-      why = fmt::format("'{}' is not a line of a header, which ends with CR LF", stl::shortened(line));
-    } else if (line.size() > 1) {
-      ++lines_;
-      read_line(std::string_view(line).substr(0, line.size() - 1), why);
-    } else if (!length_) {
-      why = "a header without Content-Length";
-    } else {
-      return header_complete_ = true;
-    }
+    if (!line.ends_with('\r')) return trouble("'{}' is not a line of a header, which ends with CR LF", stl::shortened(line));
+    if (line.size() == 1) break;
+    ++lines_;
+    if (const auto done = read_line(std::string_view(line).substr(0, line.size() - 1)); !done) return done;
   }
-  return false;
+  if (!length_) return Trouble{"a header without Content-Length"};
+  header_complete_ = true;
+  return {};
 }
 
-bool FrameReader::read_line(std::string_view line, std::string& why) {
+Result<> FrameReader::read_line(std::string_view line) {
   const std::size_t colon = line.find(':');
-  if (colon == std::string_view::npos) {
-    why = fmt::format("'{}' is not a line of a header: write for example Content-Length: 119", stl::shortened(line));
-    return false;
-  }
-  if (stl::upper_case(line.substr(0, colon)) != "CONTENT-LENGTH") return true;
+  if (colon == std::string_view::npos)
+    return trouble("'{}' is not a line of a header: write for example Content-Length: 119", stl::shortened(line));
+  if (stl::upper_case(line.substr(0, colon)) != "CONTENT-LENGTH") return {};
   const std::string_view number = stl::trim(line.substr(colon + 1));
   length_ = parse_decimal<std::size_t>(number);
-  if (!length_)
-    why = fmt::format("'{}' is not the length of a message", stl::shortened(number));
-  else if (*length_ > kLongestBody)
-    why = fmt::format("a message of {} bytes is longer than {}", *length_, kLongestBody);
-  return why.empty();
+  if (!length_) return trouble("'{}' is not the length of a message", stl::shortened(number));
+  if (*length_ > kLongestBody) return trouble("a message of {} bytes is longer than {}", *length_, kLongestBody);
+  return {};
 }
 
 std::string framed(std::string_view content) { return fmt::format("Content-Length: {}\r\n\r\n{}", content.size(), content); }

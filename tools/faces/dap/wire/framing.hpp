@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "interpreter/base/result.hpp"
+
 namespace s7200::tools::dap {
 
 /// Takes a stream apart, however it is cut.
@@ -15,9 +17,9 @@ class FrameReader {
 
   void add(std::string_view bytes) { buffer_ += bytes; }
 
-  /// The content of the next message; nothing if it is not complete yet. Sets `why` if what came cannot become a message:
+  /// The content of the next message; nothing if it is not complete yet. Trouble if what came cannot become a message:
   /// all up to the next `Content-Length:` is skipped then.
-  std::optional<std::string> next(std::string& why);
+  Result<std::string> next();
 
   /// What next() gave was no message: its length may have been wrong, so the next header is looked for in it too.
   void reject(std::string_view content);
@@ -26,8 +28,8 @@ class FrameReader {
   bool is_amid() const { return !lost_ && (!buffer_.empty() || length_ || lines_ != 0); }
 
  private:
-  bool read_header(std::string& why);
-  bool read_line(std::string_view line, std::string& why);
+  Result<> read_header();
+  Result<> read_line(std::string_view line);
   void begin_message();
   bool find_header();
 

@@ -74,13 +74,12 @@ class Reader {
   /// closed: no one is looked for in what a stranger sends.
   bool hand_over() {
     for (;;) {
-      std::string why;
-      const auto content = frames_.next(why);
-      if (!content && why.empty()) return true;
-      std::string not_json;
-      auto parsed = content ? parse_json(*content, not_json) : std::nullopt;
+      const auto content = frames_.next();
+      if (!content && content.why().empty()) return true;
+      std::string why = content.why();
+      auto parsed = content ? parse_json(*content) : std::nullopt;
       if (content && !parsed) {
-        why = fmt::format("'{}' is {}", stl::shortened(*content), not_json);
+        why = fmt::format("'{}' is {}", stl::shortened(*content), parsed.why());
         frames_.reject(*content);
       } else if (content && !parsed->is_object()) {
         why = fmt::format("'{}' is not a JSON object", stl::shortened(*content));

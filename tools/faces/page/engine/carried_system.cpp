@@ -62,11 +62,10 @@ class CarriedFiles final : public FileSource {
     }
   }
 
-  std::optional<std::string> read(const std::string& path, std::string& why) const override {
+  Result<std::string> read(const std::string& path) const override {
     const auto found = bytes_.find(path);
     if (found != bytes_.end()) return found->second;
-    why = "the report does not carry it";
-    return {};
+    return Trouble{"the report does not carry it"};
   }
   bool exists(const std::string& path) const override { return bytes_.contains(path); }
 
@@ -107,23 +106,23 @@ Json system_json(const CarriedSystem& system) {
   return json;
 }
 
-std::optional<OpenedSystem> system_from(const Json& json, std::string& why) {
+Result<OpenedSystem> system_from(const Json& json) {
   JsonTaker taker;
   const std::string path = taker.text_at(json, "name");
   const YamlNode root = tree_from(taker, taker.member(json, "tree"));
   const CarriedFiles files(taker, taker.list_at(json, "files"));
-  if (!taker.fine()) return why = taker.why(), std::nullopt;
+  if (!taker.fine()) return Trouble{taker.why()};
   SystemFile file = read_system(root, path, files);
   if (!file.ok()) {
     const auto& all = file.file.diagnostics;
     const auto error = std::ranges::find(all, stl::Severity::Error, &stl::Diagnostic::severity);
-    return why = fmt::format("{}: {}", stl::printable(path), error->message), std::nullopt;
+    return trouble("{}: {}", stl::printable(path), error->message);
   }
   OpenedSystem opened{.plan = std::move(file.plan)};
   if (JsonTaker::has(json, "kept")) take_kept(taker, taker.list_at(json, "kept"), opened.plan);
   if (JsonTaker::has(json, "spots"))
     for (const Json& spot : taker.list_at(json, "spots")) opened.spots.push_back(take_spot(taker, spot, opened.plan));
-  if (!taker.fine()) return why = taker.why(), std::nullopt;
+  if (!taker.fine()) return Trouble{taker.why()};
   return opened;
 }
 

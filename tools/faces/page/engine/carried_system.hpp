@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "interpreter/base/file_source.hpp"
+#include "interpreter/base/result.hpp"
 #include "tools/json/json_taker.hpp"
 #include "tools/plan/system_plan.hpp"
 #include "tools/session/commands/reply.hpp"
@@ -25,11 +26,11 @@ struct CarriedSystem {
 
 Json system_json(const CarriedSystem& system);
 
-/// Its plan, with what the PLCs have kept, and where masters join. Nothing, and `why`, if the JSON is no such system.
+/// Its plan, with what the PLCs have kept, and where masters join. Trouble if the JSON is no such system.
 struct OpenedSystem {
   SystemPlan plan{};
   std::vector<Spot> spots{};
 };
-std::optional<OpenedSystem> system_from(const Json& json, std::string& why);
+Result<OpenedSystem> system_from(const Json& json);
 
 }  // namespace s7200::tools::page

@@ -37,35 +37,37 @@ const Json& member_or_null(const Json& map, const char* key) {
   return found == map.end() ? kNull : *found;
 }
 
-/// The sources of a message as one program. Nothing, and `why`, if one of them cannot be read.
-std::optional<SourceText> read_sources(const Json& sources, std::string& why) {
+/// The sources of a message as one program. Trouble if one of them cannot be read.
+Result<SourceText> read_sources(const Json& sources) {
   std::vector<SourceText> files;
   for (const Json& source : sources) {
     const std::string *const name = text_at(source, "name"), *const text = text_at(source, "text");
-    if (!name || !text) return why = "a source has a name and a text", std::nullopt;
-    auto file = read_source(*text, *name, why);
-    if (!file) return why = fmt::format("cannot read {}: {}", stl::printable(*name), why), std::nullopt;
+    if (!name || !text) return Trouble{"a source has a name and a text"};
+    auto file = read_source(*text, *name);
+    if (!file) return trouble("cannot read {}: {}", stl::printable(*name), file.why());
     files.push_back(std::move(*file));
   }
-  if (files.empty()) return why = "there are no sources: the text of a program first", std::nullopt;
+  if (files.empty()) return Trouble{"there are no sources: the text of a program first"};
   return join_files(std::move(files));
 }
 
 /// The CPU that is asked for, else that of the program's head, else the first one that can run it. Null if there is no such.
-const CpuModel* model_for(const SourceText& text, const Json& options, std::string& why) {
-  const auto asked = cpu_of_options(options, why);
-  if (!asked || *asked) return asked.value_or(nullptr);
+Result<const CpuModel&> model_for(const SourceText& text, const Json& options) {
+  const auto asked = cpu_of_options(options);
+  if (!asked) return asked.trouble();
+  if (*asked) return **asked;
   const CpuModel* const named = cpu_in_head(text.parsed.source);
-  return named ? named : &first_cpu_for(text.parsed);
+  return named ? *named : first_cpu_for(text.parsed);
 }
 
-/// Repairs the slips that the options name. False, and `why`, if the listing does not have one of them.
-bool repair_slips(SourceText& text, const Json& options, std::string& why) {
-  const auto repairs = repairs_of_options(options, why);
+/// Repairs the slips that the options name. Trouble if the listing does not have one of them.
+Result<> repair_slips(SourceText& text, const Json& options) {
+  const auto repairs = repairs_of_options(options);
   std::vector<std::string> unknown;
-  if (repairs) repair(text.parsed.source, *repairs, unknown);
-  if (!unknown.empty()) why = fmt::format("repair: there is no slip {} in it", stl::shortened(unknown.front()));
-  return why.empty();
+  if (!repairs) return repairs.trouble();
+  repair(text.parsed.source, *repairs, unknown);
+  if (!unknown.empty()) return trouble("repair: there is no slip {} in it", stl::shortened(unknown.front()));
+  return {};
 }
 
 /// As a rig powers up the PLC of a program.
@@ -77,12 +79,12 @@ void power_up(serial::Simulation& simulation, const Surroundings& around) {
   for (const serial::Fault& fault : around.faults) simulation.inject(fault);
 }
 
-/// The recording of a message; nothing if it has none, or, with `why`, if it is none of those CPUs.
-std::optional<Recording> recording_of(const Json& wanted, Models models, std::string& why) {
+/// The recording of a message; nothing to say if it has none, trouble if it is none of those CPUs.
+Result<Recording> recording_of(const Json& wanted, Models models) {
   const Json& recorded = member_or_null(wanted, "recording");
-  if (recorded.is_null()) return {};
-  auto recording = recording_from(recorded, models, why);
-  if (!recording) why = "recording: " + why;
+  if (recorded.is_null()) return std::nullopt;
+  auto recording = recording_from(recorded, models);
+  if (!recording) return trouble("recording: {}", recording.why());
   return recording;
 }
 
@@ -97,10 +99,9 @@ std::vector<DebuggedStation> stations_of(const SystemPlan& plan) {
 }  // namespace
 
 void Engine::take(std::string_view text) {
-  std::string why;
-  const auto message = parse_json(text, why);
+  const auto message = parse_json(text);
   if (!message || !message->is_object())
-    return send_(line_of({{"id", nullptr}, {"error", message ? "not a JSON object" : why}}));
+    return send_(line_of({{"id", nullptr}, {"error", message ? "not a JSON object" : message.why()}}));
   if (message->contains("stop")) return;  // nothing goes on while a message is taken
   if (message->contains("open")) return open(*message);
   if (!talk_) return send_(line_of({{"id", member_or_null(*message, "id")}, {"error", "open a program first"}}));
@@ -115,55 +116,55 @@ void Engine::open(const Json& message) {
 }
 
 void Engine::open_program(const Json& wanted, const Json& id) {
-  std::string why;
-  auto text = read_sources(member_or_null(wanted, "sources"), why);
+  const auto refuse = [&](const std::string& why) { send_(line_of({{"id", id}, {"error", why}})); };
+  auto text = read_sources(member_or_null(wanted, "sources"));
   const Json& options = member_or_null(wanted, "options");
-  const bool repaired = text && repair_slips(*text, options, why);
-  const CpuModel* const model = repaired ? model_for(*text, options, why) : nullptr;
-  const auto times = model ? times_of_options(options, *model, why) : std::nullopt;
-  if (!times) return send_(line_of({{"id", id}, {"error", why}}));
+  if (!text) return refuse(text.why());
+  if (const auto done = repair_slips(*text, options); !done) return refuse(done.why());
+  const auto model = model_for(*text, options);
+  if (!model) return refuse(model.why());
+  const auto times = times_of_options(options, *model);
+  if (!times) return refuse(times.why());
   CheckResult result = check(text->parsed, *model, *times);
   const std::vector<const CpuModel*> others = fine_for(*text, result, *model);
   Json report = check_json(text->parsed.source.name, *text, result, *model, others);
   report["text"] = stl::render(result.diagnostics, result.source, false) + check_summary(*text, result, *model, others);
   report["opened"] = result.program != nullptr;
-  if (result.program) begin(std::move(result.program), wanted, why);
-  if (!why.empty()) return send_(line_of({{"id", id}, {"error", why}}));
+  if (result.program)
+    if (const auto done = begin(std::move(result.program), wanted); !done) return refuse(done.why());
   send_(line_of({{"id", id}, {"text", report["text"]}, {"json", report}, {"moved", report["opened"]}}));
   if (talk_ && report["opened"] == true) talk_->greet(kPage);
 }
 
 void Engine::open_system(const Json& wanted, const Json& id) {
-  std::string why;
-  begin_system(wanted, why);
-  if (!why.empty()) return send_(line_of({{"id", id}, {"error", why}}));
+  if (const auto done = begin_system(wanted); !done) return send_(line_of({{"id", id}, {"error", done.why()}}));
   send_(line_of({{"id", id}, {"text", ""}, {"json", {{"opened", true}}}, {"moved", true}}));
   talk_->greet(kPage);
 }
 
-void Engine::begin(std::shared_ptr<const Program> program, const Json& wanted, std::string& why) {
-  const auto around = surroundings_of_options(member_or_null(wanted, "options"), *program, why);
-  if (!around) return;
-  auto recording = recording_of(wanted, std::array{program->model}, why);
-  if (!why.empty()) return;
+Result<> Engine::begin(std::shared_ptr<const Program> program, const Json& wanted) {
+  const auto around = surroundings_of_options(member_or_null(wanted, "options"), *program);
+  if (!around) return around.trouble();
+  auto recording = recording_of(wanted, std::array{program->model});
+  if (!recording.why().empty()) return recording.trouble();
   forget();
   const std::string name = program->source.name;
   if (around->plc.system_block != SystemBlock{}) program = with_system_block(*program, around->plc.system_block);
   simulation_ = std::make_unique<serial::Simulation>(std::move(program), around->field, around->port);
   power_up(*simulation_, *around);
-  look_at(std::make_unique<History>(*simulation_, History::Settings{.bound = kBytesOfCheckpoints}), std::move(recording),
-          PageSettings{.program = name}, why);
+  return look_at(std::make_unique<History>(*simulation_, History::Settings{.bound = kBytesOfCheckpoints}),
+                 std::move(recording).if_any(), PageSettings{.program = name});
 }
 
-void Engine::begin_system(const Json& wanted, std::string& why) {
+Result<> Engine::begin_system(const Json& wanted) {
   const Json& carried = member_or_null(wanted, "system");
-  auto system = system_from(carried, why);
-  if (!system) return void(why = "system: " + why);
+  auto system = system_from(carried);
+  if (!system) return trouble("system: {}", system.why());
   std::vector<const CpuModel*> models;
   for (const PlcPlan& plc : system->plan.plcs) models.push_back(plc.program->model);
-  if (models.empty()) return void(why = "system: it has no S7-200");
-  auto recording = recording_of(wanted, models, why);
-  if (!why.empty()) return;
+  if (models.empty()) return Trouble{"system: it has no S7-200"};
+  auto recording = recording_of(wanted, models);
+  if (!recording.why().empty()) return recording.trouble();
   forget();
   rig_ = std::make_unique<Rig>(std::move(system->plan), RigSpots{.spots = system->spots, .lines = {}});
   rig_->power_up();
@@ -173,7 +174,8 @@ void Engine::begin_system(const Json& wanted, std::string& why) {
   settings.bound = kBytesOfCheckpoints;
   PageSettings page{.program = *text_at(carried, "name")};
   page.session.stations = stations_of(rig_->plan());
-  look_at(std::make_unique<History>(seen_->stations(), std::move(settings)), std::move(recording), std::move(page), why);
+  return look_at(std::make_unique<History>(seen_->stations(), std::move(settings)), std::move(recording).if_any(),
+                 std::move(page));
 }
 
 /// What was open, in the order in which it hangs together.
@@ -185,14 +187,14 @@ void Engine::forget() {
   rig_.reset();
 }
 
-void Engine::look_at(std::unique_ptr<History> history, std::optional<Recording> recording, PageSettings page,
-                     std::string& why) {
+Result<> Engine::look_at(std::unique_ptr<History> history, std::optional<Recording> recording, PageSettings page) {
   history_ = std::move(history);
-  if (recording && !history_->has_hosts_of(*recording)) return void(why = "recording: it has a bridge that is not here");
+  if (recording && !history_->has_hosts_of(*recording)) return Trouble{"recording: it has a bridge that is not here"};
   if (recording && !history_->adopt(std::move(*recording)))
-    return void(why = "recording: a checkpoint in it is damaged, or is one of another program");
+    return Trouble{"recording: a checkpoint in it is damaged, or is one of another program"};
   talk_ = std::make_unique<Conversation>(*history_, std::move(page),
                                          Post{[this](Client, std::string reply) { send_(std::move(reply)); }, send_});
+  return {};
 }
 
 }  // namespace s7200::tools::page

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/program/program.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/faces/page/conversation.hpp"
@@ -33,10 +34,10 @@ class Engine {
   void open(const Json& message);
   void open_program(const Json& wanted, const Json& id);
   void open_system(const Json& wanted, const Json& id);
-  void begin(std::shared_ptr<const Program> program, const Json& wanted, std::string& why);
-  void begin_system(const Json& wanted, std::string& why);
+  Result<> begin(std::shared_ptr<const Program> program, const Json& wanted);
+  Result<> begin_system(const Json& wanted);
   void forget();
-  void look_at(std::unique_ptr<History> history, std::optional<Recording> recording, PageSettings page, std::string& why);
+  Result<> look_at(std::unique_ptr<History> history, std::optional<Recording> recording, PageSettings page);
 
   std::function<void(std::string)> send_;
   std::unique_ptr<serial::Simulation> simulation_{};  ///< of a program

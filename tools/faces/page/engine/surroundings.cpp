@@ -74,42 +74,51 @@ serial::FieldScript take_field(JsonTaker& taker, const Json& json) {
 
 // --- one option ---
 
-using Read = void (*)(Surroundings& around, const Json& value, const Program& program, std::string& why);
+using Read = Result<> (*)(Surroundings& around, const Json& value, const Program& program);
 
-void read_port(Surroundings& around, const Json& value, const Program& program, std::string& why) {
+Result<> read_port(Surroundings& around, const Json& value, const Program& program) {
   const std::vector<std::string> texts = texts_of(value);
-  if (texts.size() != 1 || (texts[0] != "0" && texts[0] != "1")) return void(why = "a port is 0 or 1");
+  if (texts.size() != 1 || (texts[0] != "0" && texts[0] != "1")) return Trouble{"a port is 0 or 1"};
   around.port = texts[0] == "1" ? 1 : 0;
-  if (around.port >= program.model->ports) why = fmt::format("a CPU {} has one port", program.model->name);
+  if (around.port >= program.model->ports) return trouble("a CPU {} has one port", program.model->name);
+  return {};
 }
 
-void read_assignments(Surroundings& around, const Json& value, const Program& program, std::string& why) {
+Result<> read_assignments(Surroundings& around, const Json& value, const Program& program) {
+  Result<> done;
   for (const std::string& text : texts_of(value))
-    if (const auto assignment = parse_assignment(text, program, why)) around.plc.set.push_back(*assignment);
+    if (const auto assignment = parse_assignment(text, program))
+      around.plc.set.push_back(*assignment);
+    else
+      done = assignment.trouble();
+  return done;
 }
 
-void read_faults(Surroundings& around, const Json& value, const Program& /*program*/, std::string& why) {
+Result<> read_faults(Surroundings& around, const Json& value, const Program& /*program*/) {
   for (const std::string& text : texts_of(value)) {
     const serial::ParsedFault fault = serial::parse_fault(text);
-    if (fault.error) return void(why = fault.error->message);
+    if (fault.error) return Trouble{fault.error->message};
     around.faults.push_back(fault.fault);
   }
+  return {};
 }
 
-void read_kept(Surroundings& around, const Json& value, const Program& program, std::string& why) {
+Result<> taken(const JsonTaker& taker) { return taker.fine() ? Result<>() : Trouble{taker.why()}; }
+
+Result<> read_kept(Surroundings& around, const Json& value, const Program& program) {
   JsonTaker taker;
   around.kept = take_kept_memory(taker, value, *program.model);
-  why = taker.why();
+  return taken(taker);
 }
 
-void read_field(Surroundings& around, const Json& value, const Program& /*program*/, std::string& why) {
+Result<> read_field(Surroundings& around, const Json& value, const Program& /*program*/) {
   JsonTaker taker;
   around.field = take_field(taker, value);
-  why = taker.why();
+  return taken(taker);
 }
 
 /// What has been read before there is a program.
-void read_before(Surroundings& /*around*/, const Json& /*value*/, const Program& /*program*/, std::string& /*why*/) {}
+Result<> read_before(Surroundings& /*around*/, const Json& /*value*/, const Program& /*program*/) { return {}; }
 
 struct Row {
   std::string_view name;
@@ -127,16 +136,15 @@ std::string names_of_options() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-void read_option(Surroundings& around, const std::string& name, const Json& value, const Program& program,
-                 std::string& why) {
+Result<> read_option(Surroundings& around, const std::string& name, const Json& value, const Program& program) {
   if (const auto row = std::ranges::find(kRows, name, &Row::name); row != kRows.end())
-    return row->read(around, value, program, why);
+    return row->read(around, value, program);
   const PlcKey* const key = key_named(name);
-  if (!key)
-    return void(why = fmt::format("there is no option '{}' here; there are {}", stl::shortened(name), names_of_options()));
+  if (!key) return trouble("there is no option '{}' here; there are {}", stl::shortened(name), names_of_options());
   const AddressSpace space = program;
   for (const std::string& text : texts_of(value))
-    if (why.empty()) why = key->take(around.plc, text, &space).message;
+    if (std::string why = key->take(around.plc, text, &space).message; !why.empty()) return Trouble{std::move(why)};
+  return {};
 }
 
 /// What a key says in a file may stand in quotes there.
@@ -173,35 +181,31 @@ Json options_of(const Program& program, const Surroundings& around, const Repair
   return options;
 }
 
-std::optional<const CpuModel*> cpu_of_options(const Json& options, std::string& why) {
+Result<const CpuModel*> cpu_of_options(const Json& options) {
   const auto name = text_of(options, "cpu");
   const CpuModel* const model = name ? find_cpu(*name) : nullptr;
   if (!name || model) return model;
-  why = fmt::format("there is no model of CPU '{}'", stl::shortened(*name));
-  return {};
+  return trouble("there is no model of CPU '{}'", stl::shortened(*name));
 }
 
-std::optional<Repairs> repairs_of_options(const Json& options, std::string& why) {
+Result<Repairs> repairs_of_options(const Json& options) {
   const auto text = text_of(options, "repair");
-  Repairs repairs = text ? parse_repairs(*text, why) : Repairs{};
-  return why.empty() ? std::optional(std::move(repairs)) : std::nullopt;
+  return text ? parse_repairs(*text) : Repairs{};
 }
 
-std::optional<TimeTable> times_of_options(const Json& options, const CpuModel& model, std::string& why) {
+Result<TimeTable> times_of_options(const Json& options, const CpuModel& model) {
   const auto text = text_of(options, "times");
   if (!text) return default_times(model);
   TimeTable times;
   const std::vector<std::string> errors = times.add(*text, "times");
   if (errors.empty()) return times;
-  why = errors.front();
-  return {};
+  return Trouble{errors.front()};
 }
 
-std::optional<Surroundings> surroundings_of_options(const Json& options, const Program& program, std::string& why) {
+Result<Surroundings> surroundings_of_options(const Json& options, const Program& program) {
   Surroundings around;
   for (const auto& [name, value] : options.items()) {
-    read_option(around, name, value, program, why);
-    if (!why.empty()) return why = fmt::format("{}: {}", name, why), std::nullopt;
+    if (const auto done = read_option(around, name, value, program); !done) return trouble("{}: {}", name, done.why());
   }
   return around;
 }

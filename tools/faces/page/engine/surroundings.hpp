@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/program/loading/slips.hpp"
 #include "interpreter/program/program.hpp"
 #include "serial_sim/faults/fault.hpp"
@@ -26,13 +27,13 @@ struct Surroundings {
 /// The options that say so, of a PLC that runs `program`. `repairs`: those of its listing.
 Json options_of(const Program& program, const Surroundings& around, const Repairs& repairs = {});
 
-// Reading them. Each returns nothing and sets `why` if an option is wrong or there is no such option.
+// Reading them. Each brings trouble if an option is wrong or there is no such option.
 
 /// The CPU that they name; of a message that names none, null.
-std::optional<const CpuModel*> cpu_of_options(const Json& options, std::string& why);
-std::optional<Repairs> repairs_of_options(const Json& options, std::string& why);
+Result<const CpuModel*> cpu_of_options(const Json& options);
+Result<Repairs> repairs_of_options(const Json& options);
 /// The table of execution times that they have; without one that of the CPU.
-std::optional<TimeTable> times_of_options(const Json& options, const CpuModel& model, std::string& why);
-std::optional<Surroundings> surroundings_of_options(const Json& options, const Program& program, std::string& why);
+Result<TimeTable> times_of_options(const Json& options, const CpuModel& model);
+Result<Surroundings> surroundings_of_options(const Json& options, const Program& program);
 
 }  // namespace s7200::tools::page

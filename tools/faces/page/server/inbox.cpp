@@ -21,8 +21,8 @@ void Inbox::leave(Client client) {
 
 std::string Inbox::put(Client client, const std::string& text) {
   constexpr JsonLimits kLimits{.bytes = 1 << 20};
-  std::string why;
-  auto message = parse_json(text, why, kLimits);
+  auto message = parse_json(text, kLimits);
+  std::string why = message.why();
   if (message && !message->is_object()) why = "not a JSON object";
   const std::lock_guard lock(mutex_);
   if (const std::string full = why_full(client, text.size()); !full.empty()) return full;

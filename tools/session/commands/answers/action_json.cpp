@@ -89,9 +89,9 @@ struct ToJson {
 };
 
 MemoryRange take_place(JsonTaker& taker, const std::string& text, const CpuModel& model) {
-  std::string why;
-  if (const auto place = parse_range(text, model, why)) return *place;
-  taker.fail(why);
+  const auto place = parse_range(text, model);
+  if (place) return *place;
+  taker.fail(place.why());
   return {};
 }
 

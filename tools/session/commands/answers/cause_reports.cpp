@@ -105,9 +105,8 @@ Reply obstacles_to(Session& session, const Wish& wish, bool all) {
   const Cpu& cpu = session.cpu();
   const std::string name = stl::printable(wish.text);
   Json json{{"name", name}};
-  std::string why;
-  const auto holds = holds_now(wish, cpu, why);
-  if (!holds) return wrong(fmt::format("{}: {}", name, why));
+  const auto holds = holds_now(wish, cpu);
+  if (!holds) return wrong(fmt::format("{}: {}", name, holds.why()));
   json["holds"] = *holds;
   if (*holds) {
     const std::string values = wish.bit ? "" : fmt::format(": {}", wish.condition->places_text(cpu));

@@ -182,7 +182,7 @@ Json checkpoints_json(const std::vector<std::string>& checkpoints) {
   return json;
 }
 
-std::optional<Recording> recording_from(const Json& json, Models models, std::string& why) {
+Result<Recording> recording_from(const Json& json, Models models) {
   JsonTaker taker;
   Recording recording;
   ActionTaker actions(taker, taker.list_at(json, "actions"), models);
@@ -194,8 +194,8 @@ std::optional<Recording> recording_from(const Json& json, Models models, std::st
     for (const Json& one : taker.list_at(json, "checkpoints")) recording.checkpoints.push_back(take_bytes(taker, one));
   for (const Moment& moment : {recording.end, recording.now})
     if (moment.actions > recording.actions.size()) taker.fail("more was done than it has");
-  why = taker.why();
-  return taker.fine() ? std::optional(std::move(recording)) : std::nullopt;
+  if (!taker.fine()) return Trouble{taker.why()};
+  return recording;
 }
 
 }  // namespace s7200::tools

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
@@ -25,7 +26,7 @@ nlohmann::ordered_json json_of(const Recording& recording, Models models);
 /// all of them.
 nlohmann::ordered_json checkpoints_json(const std::vector<std::string>& checkpoints);
 
-/// Returns nothing and sets `why` if the JSON is not a recording of those CPUs.
-std::optional<Recording> recording_from(const nlohmann::ordered_json& json, Models models, std::string& why);
+/// Trouble if the JSON is not a recording of those CPUs.
+Result<Recording> recording_from(const nlohmann::ordered_json& json, Models models);
 
 }  // namespace s7200::tools

@@ -86,9 +86,8 @@ Reply help(Session& session, const Words& arguments) {
     session.said << stl::wrapped(commands_help(), stl::kUsualWidth);
     return {};
   }
-  std::string why;
-  const CommandRow* command = find_command(arguments[0], why);
-  if (!command) return wrong(why);
+  const auto command = find_command(arguments[0]);
+  if (!command) return wrong(command.why());
   session.said << fmt::format("{}\n  {}\n", command->syntax, command->meaning);
   for (std::string_view rest = command->more; !rest.empty();) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
@@ -401,25 +400,24 @@ std::string hint_for_word(std::string_view word, std::string_view meant) {
   return meant.empty() ? "'help' lists them" : fmt::format("did you mean {}?", meant);
 }
 
-const CommandRow* find_command(std::string_view word, std::string& why) {
+Result<const CommandRow&> find_command(std::string_view word) {
   const std::string name = stl::lower_case(word);
   std::vector<const CommandRow*> found;
   for (const CommandRow& command : command_table()) {
-    if (name == command.name || name == command.short_form) return &command;
+    if (name == command.name || name == command.short_form) return command;
     if (command.name.starts_with(name)) found.push_back(&command);
   }
   const bool of_others = std::ranges::find(kOtherWords, name, &OtherWord::word) != kOtherWords.end();
-  if (found.size() == 1 && !of_others) return found[0];
+  if (found.size() == 1 && !of_others) return *found[0];
   if (found.empty() || of_others) {
     std::vector<std::string_view> names;
     for (const CommandRow& command : command_table()) names.push_back(command.name);
     const std::string_view meant = nearest(name, names);
-    why = fmt::format("unknown command '{}'; {}", stl::shortened(word), hint_for_word(word, meant));
-    return nullptr;
+    return trouble("unknown command '{}'; {}", stl::shortened(word), hint_for_word(word, meant));
   }
-  why = fmt::format("'{}' may be", stl::shortened(word));
+  std::string why = fmt::format("'{}' may be", stl::shortened(word));
   for (const CommandRow* command : found) why += fmt::format("{} {}", command == found.front() ? "" : ",", command->name);
-  return nullptr;
+  return Trouble{std::move(why)};
 }
 
 std::string commands_help() {
@@ -439,9 +437,9 @@ Words command_words(std::string_view command) { return split(command, kBlanks); 
 
 Reply execute(Session& session, Words words) {
   session.expectation_failed = false;
+  const auto command = find_command(words.front());
+  if (!command) return wrong(command.why());
   std::string why;
-  const CommandRow* const command = find_command(words.front(), why);
-  if (!command) return wrong(why);
   words.erase(words.begin());
   const bool reads_them_itself = command->takes == Takes::Break;  // its condition is about the routine of its place
   if (!reads_them_itself) why = with_local_variables(session, words, session.current_op());

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/result.hpp"
 #include "tools/session/commands/reply.hpp"
 #include "tools/session/commands/session.hpp"
 
@@ -47,8 +48,8 @@ struct CommandRow {
 const std::vector<CommandRow>& command_table();
 std::vector<std::string> command_names();
 
-/// By its name, its short form, or the beginning of its name. Null, and `why`, if there is none or more than one.
-const CommandRow* find_command(std::string_view word, std::string& why);
+/// By its name, its short form, or the beginning of its name. Trouble if there is none or more than one.
+Result<const CommandRow&> find_command(std::string_view word);
 
 /// The list of all commands, and what is worth knowing of them, in lines of any length.
 std::string commands_help();

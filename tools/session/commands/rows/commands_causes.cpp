@@ -23,18 +23,16 @@ namespace {
 FoundInPast writer_of(Session& session, const Words& arguments, std::string_view command) {
   if (const auto event = event_of(arguments)) return last_writer(session, *event);
   if (!arguments.empty() && stl::lower_case(arguments[0]) == "event") return {wrong(expects_event(command, arguments))};
-  std::string why;
-  const auto place = one_range(session, arguments, command, why);
-  return place ? last_writer(session, place->range, place->name) : FoundInPast{wrong(why)};
+  const auto place = one_range(session, arguments, command);
+  return place ? last_writer(session, place->range, place->name) : FoundInPast{wrong(place.why())};
 }
 
 Reply why_not(Session& session, Words words) {
   if (words.empty()) return wrong(expects("why not", "a bit or a condition, for example: why not Q0.3, why not VW10 > 5"));
   const bool all = words.size() > 1 && stl::lower_case(words.back()) == "all";
   if (all) words.pop_back();
-  std::string why;
-  const auto wish = parse_wish(joined(words), session.program(), why);
-  return wish ? obstacles_to(session, *wish, all) : wrong(fmt::format("why not: {}", why));
+  const auto wish = parse_wish(joined(words), session.program());
+  return wish ? obstacles_to(session, *wish, all) : wrong(fmt::format("why not: {}", wish.why()));
 }
 
 /// The answered request of a simulated master that ended last on the line of the PLC that is looked at; null if there is
@@ -81,10 +79,10 @@ std::string take_effect_words(Session& session, const Words& arguments, EffectWo
     }
     if (++i == arguments.size())
       return expects("effect", fmt::format("a time after {}, for example: effect Q0.0 {} 5s", word, word));
-    std::string why;
     if (word == "at") {
-      words.at = parse_moment(arguments[i], session.history, why);
-      if (!words.at) return fmt::format("effect: {}", why);
+      const auto at = parse_moment(arguments[i], session.history);
+      if (!at) return fmt::format("effect: {}", at.why());
+      words.at = *at;
       continue;
     }
     const auto within = parse_duration(arguments[i]);
@@ -133,9 +131,8 @@ Reply back_to_write(Session& session, const Words& arguments) {
 Reply effect(Session& session, const Words& arguments) {
   EffectWords words;
   if (const std::string why = take_effect_words(session, arguments, words); !why.empty()) return wrong(why);
-  std::string why;
-  const auto place = one_range(session, words.address, "effect", why);
-  if (!place) return wrong(why);
+  const auto place = one_range(session, words.address, "effect");
+  if (!place) return wrong(place.why());
   if (!lasts(place->range.area))
     return wrong(
         fmt::format("effect: {} holds values for a moment only; ask about I, Q, M, S, V, T, C, AI or AQ", place->name));
@@ -151,11 +148,10 @@ Reply why(Session& session, const Words& arguments) {
     auto failed = why_failed(session);
     return failed ? std::move(*failed) : last_decider(session).reply;
   }
-  std::string why;
   if (stl::lower_case(arguments[0]) == "not") return why_not(session, {arguments.begin() + 1, arguments.end()});
   if (stl::lower_case(arguments[0]) == "latency" && arguments.size() == 1) return why_latency(session);
-  const auto place = one_range(session, arguments, "why", why);
-  return place ? cause_of(session, place->range, named(session.program(), place->range)) : wrong(why);
+  const auto place = one_range(session, arguments, "why");
+  return place ? cause_of(session, place->range, named(session.program(), place->range)) : wrong(place.why());
 }
 
 Reply back_to_decision(Session& session, const Words&) {

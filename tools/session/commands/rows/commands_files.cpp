@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/counted.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/session/commands/rows/commands.hpp"
@@ -49,21 +50,19 @@ Assignment object_of(const State& state, const MemoryRange& range, std::uint32_t
 }
 
 /// `FILE [!]`: where a file goes that does not replace another one, unless `!` says so. It has all of `wanted` but the path.
-std::optional<FilePlace> place_of(const Session& session, const Words& arguments, WantedFile wanted, std::string& why) {
+Result<FilePlace> place_of(const Session& session, const Words& arguments, WantedFile wanted) {
   const bool replaces = arguments.size() == 2 && arguments[1] == "!";
-  if (arguments.empty() || arguments.size() > (replaces ? 2 : 1)) {
-    why = expects(wanted.command,
-                  fmt::format("a file, and ! if it may replace one that exists, for example: {} a.txt", wanted.command));
-    return {};
-  }
-  if (!session.setup.files) return why = no_files(session, wanted.command), std::nullopt;
+  if (arguments.empty() || arguments.size() > (replaces ? 2 : 1))
+    return Trouble{
+        expects(wanted.command,
+                fmt::format("a file, and ! if it may replace one that exists, for example: {} a.txt", wanted.command))};
+  if (!session.setup.files) return Trouble{no_files(session, wanted.command)};
   wanted.path = without_quotes(arguments[0]);
   if (replaces) wanted.replacing = Replacing::Anything;
-  auto to = session.setup.files->place_for(wanted, why);
-  std::string why_not;
+  auto to = session.setup.files->place_for(wanted);
   wanted.replacing = Replacing::Anything;
-  if (!to && session.setup.files->place_for(wanted, why_not))
-    why += fmt::format("; '{} {} !' replaces it", wanted.command, wanted.path);
+  if (!to && session.setup.files->place_for(wanted))
+    return trouble("{}; '{} {} !' replaces it", to.why(), wanted.command, wanted.path);
   return to;
 }
 
@@ -144,16 +143,15 @@ std::optional<serial::Exchange> last_exchange(const Session& session) {
 }  // namespace
 
 Reply save(Session& session, const Words& arguments) {
-  std::string why;
-  const auto to = place_of(session, arguments, {"save", {}, "a saved session", session_beginning()}, why);
-  if (!to) return wrong(why);
+  const auto to = place_of(session, arguments, {"save", {}, "a saved session", session_beginning()});
+  if (!to) return wrong(to.why());
   const SessionFile file = session_file(session);
   if (!file.recording.complete) return wrong("cannot save: " + oldest_text(session.history));
   for (const Action& action : file.recording.actions)
     if (const auto* const event = std::get_if<SystemEvent>(&action))
       return wrong(
           fmt::format("cannot save: a step of the scenario did '{}', which saved sessions have no word for", event->words));
-  if (!to->write(session.setup.files->saved(file), why)) return wrong(why);
+  if (const auto done = to->write(session.setup.files->saved(file)); !done) return wrong(done.why());
   session.said << fmt::format("saved: {} with {} from outside{}\n", moment_text(session.history.now().time),
                               counted(file.recording.actions.size(), "action"),
                               file.stops.empty() ? "" : fmt::format("; breakpoints and watches: {}", file.stops.size()));
@@ -164,18 +162,19 @@ Reply load(Session& session, const Words& arguments) {
   const bool however_long = arguments.size() == 2 && arguments[1] == "!";
   if (arguments.size() != 1 && !however_long) return wrong(expects("load", "a file that 'save' has written"));
   const std::string path = without_quotes(arguments[0]);
-  std::string why;
   if (!session.setup.files) return wrong(no_files(session, "load"));
-  const auto text = session.setup.files->read(path, why);
-  if (!text) return wrong(fmt::format("cannot read {}: {}", path, why));
+  const auto text = session.setup.files->read(path);
+  if (!text) return wrong(fmt::format("cannot read {}: {}", path, text.why()));
   const SessionFile here = session_file(session);
   std::vector<const CpuModel*> models;
   std::vector<std::string> names;
   for (const Session::Station& station : session.stations) models.push_back(station.simulation->cpu().program().model);
   for (const DebuggedStation& station : session.setup.stations) names.push_back(station.name);
-  const auto file = session.setup.files->loaded(*text, models, names, why);
-  const std::string differing = file ? differences(file->options, here.options) : "";
-  for (std::size_t number = 0; file && why.empty() && number < session.stations.size(); ++number) {
+  const auto file = session.setup.files->loaded(*text, models, names);
+  if (!file) return wrong(fmt::format("cannot load {}: {}", path, file.why()));
+  const std::string differing = differences(file->options, here.options);
+  std::string why;
+  for (std::size_t number = 0; why.empty() && number < session.stations.size(); ++number) {
     const SessionFile::Station &its = file->stations[number], &ours = here.stations[number];
     const std::string of = session.is_system() ? fmt::format("{}: ", session.name_of(number)) : "";
     if (its.program != ours.program)
@@ -190,8 +189,8 @@ Reply load(Session& session, const Words& arguments) {
   if (why.empty() && !however_long && file->recording.end.time > kLongSession)
     why = fmt::format("{} of simulated time are run again, which may take long; 'load {} !' does it all the same",
                       format_duration(file->recording.end.time), path);
-  const auto stops = why.empty() ? stops_of(session, *file, why) : std::nullopt;
-  if (!why.empty()) return wrong(fmt::format("cannot load {}: {}", path, why));
+  auto stops = why.empty() ? stops_of(session, *file) : Trouble{why};
+  if (!stops) return wrong(fmt::format("cannot load {}: {}", path, stops.why()));
   const History::Place place = session.history.here();
   if (!session.history.replay(file->recording) || !has_come_to(session, *file)) {
     session.history.return_to(place);
@@ -201,20 +200,19 @@ Reply load(Session& session, const Words& arguments) {
   remember(session, place);
   session.looked_at.clear();
   note_new_branch(session);
-  if (const std::size_t added = add_loaded(session, *stops))
+  if (const std::size_t added = add_loaded(session, *std::move(stops)))
     session.said << fmt::format("breakpoints and watches of that session: {}; 'break' lists them\n", added);
   return arrive(session);
 }
 
 Reply record(Session& session, const Words& arguments) {
   if (!session.setup.write_scenario) return wrong("record: scenarios cannot be written here");
-  std::string why;
   if (!arguments.empty() && stl::lower_case(without_quotes(arguments[0])).ends_with(".json"))
     return wrong(
         "record writes a scenario in YAML: name it .yaml; 'save' writes a session in JSON, which 'load' returns to");
   const WantedFile wanted{"record", {}, "a transcript", {}, Replacing::Nothing};  // people add to what it wrote
-  const auto to = place_of(session, arguments, wanted, why);
-  if (!to) return wrong(why);
+  const auto to = place_of(session, arguments, wanted);
+  if (!to) return wrong(to.why());
   if (const std::string requests = requests_under_way(session); !requests.empty())
     return wrong(fmt::format("cannot record this session: a request is under way: {}; {}; then record", requests,
                              session.history.in_the_past()
@@ -228,8 +226,8 @@ Reply record(Session& session, const Words& arguments) {
     record.stations.push_back(record_of(session, number));
   record.last = last_exchange(session);
   record.looked_at = looked_at_here(session);
-  const auto left_out = session.setup.write_scenario(record, *to, why);
-  if (!left_out) return wrong(fmt::format("cannot record this session: {}", why));
+  const auto left_out = session.setup.write_scenario(record, *to);
+  if (!left_out) return wrong(fmt::format("cannot record this session: {}", left_out.why()));
   for (const std::string& what : *left_out) session.said << fmt::format("left out: {}\n", what);
   session.said << fmt::format("recorded up to {}; 's7200 test {}' replays it\n", moment_text(session.history.now().time),
                               stl::printable(to->path));

@@ -84,23 +84,23 @@ Reply list(Session& session, const Words& arguments) {
                                              kListed, mark);
     return {};
   }
-  std::string why;
-  if (const auto line = find_program_line(joined(arguments), session.program(), session.listing(), why)) {
+  const auto line = find_program_line(joined(arguments), session.program(), session.listing());
+  if (line) {
     session.said << session.listing().around(*line, kListedBefore, kListed, mark);
     return {};
   }
-  if (!why.empty()) return wrong(why);
-  const auto op = find_op(session, arguments, "list", why);
-  if (!op) return wrong(why);
+  if (!line.why().empty()) return wrong(line.why());
+  const auto op = find_op(session, arguments, "list");
+  if (!op) return wrong(op.why());
   session.said << session.listing().around(session.listing().line_of(*op), 0, kListed, mark);
   return {};
 }
 
 Reply status(Session& session, const Words& arguments) {
   if (arguments.size() == 2 && std::ranges::all_of(arguments, is_whole_number)) return status_of_lines(session, arguments);
-  std::string why;
-  const auto place = arguments.empty() ? session.current_op() : find_op(session, arguments, "status", why);
-  if (!why.empty()) return wrong(why);
+  const auto named = arguments.empty() ? std::nullopt : find_op(session, arguments, "status");
+  if (!named.why().empty()) return wrong(named.why());
+  const auto place = arguments.empty() ? session.current_op() : named.if_any();
   const auto ops = static_cast<std::uint32_t>(session.program().ops.size());
   const std::uint32_t at = place.value_or(0);
   const std::uint32_t first = arguments.empty() ? at - std::min(at, kBefore) : at;
@@ -111,9 +111,9 @@ Reply status(Session& session, const Words& arguments) {
 }
 
 Reply ladder(Session& session, const Words& arguments) {
-  std::string why;
-  const auto place = arguments.empty() ? session.current_op() : find_op(session, arguments, "ladder", why);
-  if (!why.empty()) return wrong(why);
+  const auto named = arguments.empty() ? std::nullopt : find_op(session, arguments, "ladder");
+  if (!named.why().empty()) return wrong(named.why());
+  const auto place = arguments.empty() ? session.current_op() : named.if_any();
   const Program& program = session.program();
   const std::vector<DrawnNetwork> networks = drawn_networks(program.source);
   auto network = std::ranges::find_if(networks, [&](const DrawnNetwork& each) { return place.value_or(0) < each.end; });

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/counted.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
@@ -55,10 +56,10 @@ struct ValuesReply {
   std::size_t count() const { return reply.json.at("values").size(); }
 
   void add(const std::string& name, const PrintForm& form) {
-    std::string why;
     const Cpu& cpu = session.cpu();
-    const auto place = parse_place(name, cpu.program(), why);
+    const auto place = parse_place(name, cpu.program());
     const auto range = place ? range_now(*place, cpu) : std::nullopt;
+    std::string why = place.why();
     if (place && !range) why = "the pointer points nowhere now";
     if (range && count() + range->count > kMostAsked) why = fmt::format("more than {} values are asked for", kMostAsked);
     if (!why.empty()) return add_wrong(name, why);
@@ -147,10 +148,10 @@ std::string track_text(const Session& session, const NamedTrack& one) {
 }
 
 /// A moment as `at` takes it, within the past: one that is beyond its end means its end.
-std::optional<Time> moment_of(const Session& session, const std::string& word, std::string& why) {
+Result<Time> moment_of(const Session& session, const std::string& word) {
   const Time newest = session.history.newest().time;
   const auto time = parse_duration(word);
-  return time && *time > newest ? newest : parse_moment(word, session.history, why);
+  return time && *time > newest ? Result<Time>(newest) : parse_moment(word, session.history);
 }
 
 }  // namespace
@@ -191,10 +192,9 @@ Reply values(Session& session, const Words& arguments) {
 Reply spans(Session& session, const Words& arguments) {
   constexpr std::string_view kExpected = "two moments, the first before the second, for example: spans -50ms end VW20";
   if (arguments.size() < 2) return wrong(expects("spans", kExpected));
-  std::string why;
-  const auto from = moment_of(session, arguments[0], why);
-  const auto to = from ? moment_of(session, arguments[1], why) : std::nullopt;
-  if (!to) return wrong(why);
+  const auto from = moment_of(session, arguments[0]);
+  const auto to = from ? moment_of(session, arguments[1]) : from;
+  if (!to) return wrong(to.why());
   if (*from >= *to) return wrong(expects("spans", kExpected));
   TracksWanted wanted{.from = *from, .to = *to, .most = kUsualElements, .watched_at = session.focus()};
   for (std::size_t i = 2; i < arguments.size(); ++i) {
@@ -205,8 +205,8 @@ Reply spans(Session& session, const Words& arguments) {
       wanted.most = *count;
       continue;
     }
-    const auto range = parse_range(arguments[i], session.program(), why);
-    if (!range) return wrong(why);
+    const auto range = parse_range(arguments[i], session.program());
+    if (!range) return wrong(range.why());
     if (range->count != 1) return wrong(fmt::format("spans: {} is several values; name each", stl::shortened(arguments[i])));
     wanted.watched.push_back(*range);
   }

@@ -112,17 +112,15 @@ Reply back_scan(Session& session, const Words& arguments) {
 Reply back_continue(Session& session, const Words&) { return go_back(session, goal::none(), 1, true); }
 
 Reply back_until(Session& session, const Words& arguments) {
-  std::string why;
-  const auto target = find_op(session, arguments, "runtil", why);
-  if (!target) return wrong(why);
+  const auto target = find_op(session, arguments, "runtil");
+  if (!target) return wrong(target.why());
   return go_back(session, goal::place(*target), 1);
 }
 
 Reply at(Session& session, const Words& arguments) {
   if (arguments.empty()) return wrong(expects("at", "a moment, for example: at 15.193ms, at -5ms, at start, at end"));
-  std::string why;
-  const auto time = parse_moment(joined(arguments), session.history, why);
-  if (!time) return wrong(why);
+  const auto time = parse_moment(joined(arguments), session.history);
+  if (!time) return wrong(time.why());
   remember(session);
   if (!go_to_parsed(session.history, *time)) {
     session.kept.pop_back();

@@ -46,9 +46,8 @@ Reply assign_all(Session& session, const Words& arguments, bool inputs_only) {
   if (std::string why = without_power(session, inputs_only ? "input" : "set"); !why.empty()) return wrong(why);
   std::vector<Assignment> assignments;
   for (const std::string& text : assignments_of(arguments)) {
-    std::string why;
-    const auto assignment = parse_assignment(text, session.program(), why);
-    if (!assignment) return wrong(why);
+    const auto assignment = parse_assignment(text, session.program());
+    if (!assignment) return wrong(assignment.why());
     if (std::string refused = not_settable(assignment->place); !refused.empty()) return wrong(refused);
     if (inputs_only && !is_from_field(assignment->place))
       return wrong(
@@ -81,9 +80,8 @@ std::size_t station_of_request(Session& session) {
 
 /// The request is that of the station that it was sent at.
 Reply cancel_request(Session& session) {
-  std::string why;
-  const auto cancel = cancel_of(session.simulation(), why);
-  if (!cancel) return wrong("send cancel: " + why);
+  const auto cancel = cancel_of(session.simulation());
+  if (!cancel) return wrong("send cancel: " + cancel.why());
   const std::string text = cancelled_text(*cancel, session.simulation());
   act(session, *cancel, station_of_request(session));
   return {.text = text, .json = {{"frame", serial::to_hex(session.simulation().master().exchange().request)}}};
@@ -123,29 +121,26 @@ Reply force(Session& session, const Words& arguments) {
       session.said << session.red(fmt::format("{:<8} {}", forced.place.name_of(0), forced.value)) << '\n';
     return {.json = forced_json(cpu)};
   }
-  std::string why = without_power(session, "force");
-  if (!why.empty()) return wrong(why);
-  auto force = force_of(assignments_of(arguments), cpu, why);
-  if (!force) return wrong(why);
+  if (const std::string why = without_power(session, "force"); !why.empty()) return wrong(why);
+  auto force = force_of(assignments_of(arguments), cpu);
+  if (!force) return wrong(force.why());
   act(session, std::move(*force));
   return {.json = forced_json(cpu)};
 }
 
 Reply unforce(Session& session, const Words& arguments) {
   if (arguments.empty()) return wrong(expects("unforce", "addresses that 'force' lists, or all"));
-  std::string why = without_power(session, "unforce");
-  if (!why.empty()) return wrong(why);
-  auto unforce = unforce_of(arguments, session.cpu(), why);
-  if (!unforce) return wrong(why);
+  if (const std::string why = without_power(session, "unforce"); !why.empty()) return wrong(why);
+  auto unforce = unforce_of(arguments, session.cpu());
+  if (!unforce) return wrong(unforce.why());
   if (!unforce->places.empty()) act(session, std::move(*unforce));
   return {.json = forced_json(session.cpu())};
 }
 
 Reply mode(Session& session, const Words& arguments) {
-  std::string why = without_power(session, "mode");
-  if (!why.empty()) return wrong(why);
-  const auto set = mode_of(joined(arguments), session.simulation(), why);
-  if (!set) return wrong(why);
+  if (const std::string why = without_power(session, "mode"); !why.empty()) return wrong(why);
+  const auto set = mode_of(joined(arguments), session.simulation());
+  if (!set) return wrong(set.why());
   act(session, *set);
   return arrive(session);
 }
@@ -188,11 +183,10 @@ Reply send(Session& session, const Words& arguments) {
         expects("send",
                 "a frame in hex, text in quotation marks, or a request, for example: send 01 03 00 00 00 02 crc, send "
                 "'HELLO\\r', or send read 40011:2"));
-  std::string why;
-  const auto frame = parse_frame(joined(arguments), session.setup.slave, why);
-  if (!frame) return wrong(fmt::format("send {}: {}", joined(arguments), why));
-  const auto send = send_of(*frame, session.simulation(), session.master(session.focus()), why);
-  if (!send) return wrong("send: " + why);
+  const auto frame = parse_frame(joined(arguments), session.setup.slave);
+  if (!frame) return wrong(fmt::format("send {}: {}", joined(arguments), frame.why()));
+  const auto send = send_of(*frame, session.simulation(), session.master(session.focus()));
+  if (!send) return wrong("send: " + send.why());
   act(session, *send);
   session.said << sent_text(*send, session.simulation()) << other_master_text(session.history, session.focus());
   if (!session.simulation().plc().powered()) session.said << without_power_text(session.name_of(session.focus())) << '\n';
@@ -200,10 +194,10 @@ Reply send(Session& session, const Words& arguments) {
 }
 
 Reply fault(Session& session, const Words& arguments) {
-  std::string text, why;
+  std::string text;
   if (!arguments.empty()) {
-    const auto inject = fault_of(joined(arguments), session.history, session.focus(), why);
-    if (!inject) return wrong(why);
+    const auto inject = fault_of(joined(arguments), session.history, session.focus());
+    if (!inject) return wrong(inject.why());
     act(session, *inject);
     text = fault_text(*inject);
   } else {

@@ -36,8 +36,7 @@ std::string range_text(const Cpu& cpu, const MemoryRange& range, const PrintForm
   if (form->joins_bytes && range.width == Width::Byte) return characters_text(cpu, range);
   std::string text;
   for (std::uint32_t i = 0; i < range.count; ++i)
-    text +=
-        fmt::format("{:<8} {}\n", range.name_of(i), form->text(bits_at(cpu.state(), range, i), range.width, range.real));
+    text += fmt::format("{:<8} {}\n", range.name_of(i), form->text(bits_at(cpu.state(), range, i), range.width, range.real));
   return text;
 }
 
@@ -107,11 +106,10 @@ Reply print(Session& session, const Words& arguments) {
   std::string why;
   std::vector<Place> places;
   for (const std::string& word : words) {
-    std::string why_not;
-    if (const auto place = parse_place(word, program, why_not))
+    if (const auto place = parse_place(word, program))
       places.push_back(*place);
     else if (why.empty())
-      why = why_not;
+      why = place.why();
   }
   if (places.size() == words.size()) {
     Reply reply{.json = {{"values", Json::array()}}};
@@ -119,23 +117,21 @@ Reply print(Session& session, const Words& arguments) {
       reply.json["values"].push_back(print_place(session, places[i], stl::upper_case(words[i]), form, reply.text));
     return reply;
   }
-  std::string why_no_expression;
-  const auto expression = Expression::parse(joined(words), program, why_no_expression);
-  if (!expression) return wrong(has_operator(words) ? why_no_expression : why);
+  const auto expression = Expression::parse(joined(words), program);
+  if (!expression) return wrong(has_operator(words) ? expression.why() : why);
   for (const Place& place : expression->places()) note_looked_at(session, place);
-  const auto value = expression->value(session.cpu(), why);
+  const auto value = expression->value(session.cpu());
   const std::string number = value ? number_text(*value, form) : "";
   return {.text = fmt::format("{} {}\n", stl::printable(expression->text()),
-                              value ? "= " + number : "cannot be computed: " + why),
+                              value ? "= " + number : "cannot be computed: " + value.why()),
           .json = {{"values", Json::array({{{"name", expression->text()}, {"value", value ? Json(number) : Json()}}})}}};
 }
 
 Reply expect(Session& session, const Words& arguments) {
-  std::string why;
   if (arguments.empty()) return wrong(expects("expect", "what must hold, for example: expect VW20 = 5 and M0.1"));
-  const auto expression = Expression::parse(joined(arguments), session.program(), why);
-  if (!expression) return wrong(why);
-  const auto value = expression->value(session.cpu(), why);
+  const auto expression = Expression::parse(joined(arguments), session.program());
+  if (!expression) return wrong(expression.why());
+  const auto value = expression->value(session.cpu());
   for (const Place& place : expression->places()) note_looked_at(session, place);
   if (value && value->truth()) return {};
   session.expectation_failed = true;
@@ -143,7 +139,8 @@ Reply expect(Session& session, const Words& arguments) {
   for (const Place& place : expression->places())
     if (const auto range = range_now(place, session.cpu())) session.failed.memory.push_back(*range);
   std::string found = expression->places_text(session.cpu());
-  if (!value && found.find(why) == std::string::npos) found += fmt::format("{}{}", found.empty() ? "" : "; ", why);
+  if (!value && found.find(value.why()) == std::string::npos)
+    found += fmt::format("{}{}", found.empty() ? "" : "; ", value.why());
   return wrong(
       fmt::format("expected {}, which does not hold here{}{}", expression->text(), found.empty() ? "" : ": ", found));
 }

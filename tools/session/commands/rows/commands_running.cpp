@@ -33,17 +33,15 @@ std::string several_coils_text(const Session& session, const Bits& output) {
 
 /// To where a wish comes to hold, or to the limit, where what blocks it is said.
 Reply run_until(Session& session, const Wish& wish, Time limit) {
-  std::string why;
   const auto output = output_with_several_coils(session, wish);
   const bool in_between = output && !coils_to_come(session.cpu(), *output).empty();
-  const auto holds = holds_now(wish, session.cpu(), why);
+  const auto holds = holds_now(wish, session.cpu());
   if (!holds || (*holds && !in_between)) return obstacles_to(session, wish);
   const auto is_reached = [&, cpu = &session.cpu(), scan = session.cpu().state().scans](const State& state, std::uint32_t,
                                                                                         const Stepper::Progress&) mutable {
     if (output && (state.scans == scan || state.in_interrupt)) return false;
     scan = state.scans;
-    std::string unknown;
-    return holds_now(wish, *cpu, unknown).value_or(false);
+    return holds_now(wish, *cpu).value_or(false);
   };
   if (output) session.said << several_coils_text(session, *output);
   Reply run = go(session, {.goal = is_reached, .limit = limit});
@@ -123,16 +121,17 @@ Reply until(Session& session, const Words& arguments) {
     limit = *time;
     words.erase(within, words.end());
   }
-  std::string why, why_no_wish;
-  if (const auto target = find_op(session, words, "until", why))
-    return go(session, {.goal = goal::place(*target), .limit = limit});
+  const auto target = find_op(session, words, "until");
+  if (target) return go(session, {.goal = goal::place(*target), .limit = limit});
   const std::string text = joined(words);
-  const auto wish = words.empty() ? std::nullopt : parse_wish(text, session.program(), why_no_wish);
+  const auto wish = words.empty() ? std::nullopt : parse_wish(text, session.program());
   const bool names_memory = wish && (wish->bit || !wish->condition->places().empty());
   if (names_memory) return run_until(session, *wish, limit);
   const bool is_condition = text.find_first_of("<>=") != std::string::npos || stl::lower_case(text).starts_with("not ");
-  if (is_condition) return wrong(fmt::format("until: {}", why_no_wish));
-  return wrong(why.starts_with("until expects") ? why + ", or a condition, for example: until Q0.3, until VW10 > 5" : why);
+  if (is_condition) return wrong(fmt::format("until: {}", wish.why()));
+  return wrong(target.why().starts_with("until expects")
+                   ? target.why() + ", or a condition, for example: until Q0.3, until VW10 > 5"
+                   : target.why());
 }
 
 }  // namespace s7200::tools::commands

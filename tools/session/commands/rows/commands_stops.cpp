@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/counted.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
@@ -51,40 +52,38 @@ std::string without_pair_of_quotes(std::string text) {
 }
 
 /// `always`, `if …`, `hits N`, `log …` after what a stop is set on.
-bool read_options(Words words, const Program& program, StopPoint& stop, std::string& why) {
+Result<> read_options(Words words, const Program& program, StopPoint& stop) {
   Words options;
   while (!words.empty()) {
     const std::string option = stl::lower_case(words.front());
     words.erase(words.begin());
-    if (std::ranges::find(options, option) != options.end())
-      return why = fmt::format("'{}' is there twice; give it once", option), false;
+    if (std::ranges::find(options, option) != options.end()) return trouble("'{}' is there twice; give it once", option);
     if (const StopOption* const known = find_stop_option(option)) {
-      if (why = refused_option(*known, stop); !why.empty()) return false;
+      if (std::string why = refused_option(*known, stop); !why.empty()) return Trouble{std::move(why)};
       options.push_back(option);
     }
     const Words given = option == "log" ? take_text(words) : take_words(words);
     if (option == "always" && given.empty()) {
       stop.needs_power = false;
     } else if (option == "if") {
-      if (given.empty()) return why = expects(option, "a condition, for example: if VW100 > 8"), false;
-      const auto condition = Expression::parse(joined(given), program, why);
-      if (!condition) return false;
+      if (given.empty()) return Trouble{expects(option, "a condition, for example: if VW100 > 8")};
+      const auto condition = Expression::parse(joined(given), program);
+      if (!condition) return condition.trouble();
       stop.condition = *condition;
     } else if (option == "hits") {
       const auto hits = parse_decimal<std::uint64_t>(joined(given));
-      if (!hits || *hits == 0) return why = expects(option, "a number above 0, for example: hits 4"), false;
+      if (!hits || *hits == 0) return Trouble{expects(option, "a number above 0, for example: hits 4")};
       stop.from_hit = *hits;
     } else if (option == "log") {
-      if (is_unclosed(joined(given))) return why = fmt::format("the closing {} is missing", given.front().front()), false;
+      if (is_unclosed(joined(given))) return trouble("the closing {} is missing", given.front().front());
       stop.log = without_pair_of_quotes(joined(given));
-      if (stop.log.empty()) return why = expects(option, "a text, for example: log '{VW100} at {time}'"), false;
-      if (!check_message(stop.log, program, why)) return false;
+      if (stop.log.empty()) return Trouble{expects(option, "a text, for example: log '{VW100} at {time}'")};
+      if (const auto done = check_message(stop.log, program); !done) return done.trouble();
     } else {
-      why = fmt::format("after what it stops at come: {}", stop_options_text());
-      return false;
+      return trouble("after what it stops at come: {}", stop_options_text());
     }
   }
-  return true;
+  return {};
 }
 
 /// Takes `read`, `write`, `read write` or `change` off the end of the words; null if there is none.
@@ -142,12 +141,12 @@ Reply set_break(Session& session, const Words& arguments) {
   if (place.empty()) return wrong(expects("break", "a place or what happens first, for example: break 40 if VW2 > 8"));
   if (why = with_local_variables(session, place, session.current_op()); !why.empty()) return wrong(why);
   std::string note;
-  auto stop = find_stop(place, session.program(), session.listing(), why, note);
+  auto stop = find_stop(place, session.program(), session.listing(), note);
   session.said << note;
-  if (!stop) return wrong(why);
+  if (!stop) return wrong(stop.why());
   const auto of_condition = stop->on == On::Place ? std::optional(stop->op) : session.current_op();
   if (why = with_local_variables(session, words, of_condition); !why.empty()) return wrong(why);
-  if (!read_options(words, session.program(), *stop, why)) return wrong(why);
+  if (const auto done = read_options(words, session.program(), *stop); !done) return wrong(done.why());
   const std::vector<SetStop>& all = session.stepper.stops();
   const auto is_the_same = [&](const StopPoint& s) {
     return s.on == On::Place && s.op == stop->op && s.station == session.focus() && option_words(s).empty() &&
@@ -165,7 +164,7 @@ Reply set_break(Session& session, const Words& arguments) {
                               stop->on == On::Place ? "in " + op_text(session.program(), session.listing(), stop->op)
                                                     : "at " + stl::printable(stop->name),
                               options_text(*stop));
-  if (stop->on == On::Becomes && stop->condition->value(session.cpu(), why).value_or(Value{}).truth())
+  if (stop->on == On::Becomes && stop->condition->value(session.cpu()).value_or(Value{}).truth())
     session.said << "  it holds now: the run stops when it comes to hold again\n";
   session.stepper.add(std::move(*stop));
   return {};
@@ -180,9 +179,8 @@ Reply watch(Session& session, const Words& arguments) {
   if (addresses.empty()) return wrong(expects("watch", "an address in front of that, for example: watch VW100 read"));
   StopPoint pattern{.on = access ? access->on : On::Change};
   std::vector<NamedRange> ranges;
-  std::string why = ranges_of(session, addresses, "watch", ranges);
-  if (!why.empty()) return wrong(why);
-  if (!read_options(words, session.program(), pattern, why)) return wrong(why);
+  if (const std::string why = ranges_of(session, addresses, "watch", ranges); !why.empty()) return wrong(why);
+  if (const auto done = read_options(words, session.program(), pattern); !done) return wrong(done.why());
   for (const auto& [range, name] : ranges) {
     StopPoint added = pattern;
     added.number = session.next_number++;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/result.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/cpu/units/forcing.hpp"
 #include "tools/session/commands/rows/command_table.hpp"
@@ -32,8 +33,7 @@ Words words_of(std::string_view line) {
 /// Those that can be forced.
 Words forceable(Words addresses, const Program& program) {
   std::erase_if(addresses, [&](const std::string& address) {
-    std::string why;
-    const auto range = parse_range(address, program, why);
+    const auto range = parse_range(address, program);
     return !range || !forcing::possible(*range);
   });
   return addresses;
@@ -200,8 +200,7 @@ Words words_after(const Session& session, const CommandRow& command, const Words
 Offers completions(const Session& session, std::string_view line) {
   const Words words = words_of(line);
   const std::string& last = words.back();
-  std::string why;
-  const CommandRow* const command = words.size() > 1 ? find_command(words.front(), why) : nullptr;
+  const auto command = words.size() > 1 ? find_command(words.front()) : Trouble{};
   Words all = words.size() == 1 ? command_names() : Words();
   if (command) all = words_after(session, *command, {words.begin() + 1, words.end() - 1}, last);
   std::erase_if(all, [&](const std::string& word) { return !begins(word, last); });
