@@ -6,11 +6,13 @@
 #include <array>
 #include <iterator>
 
+#include "interpreter/base/text/counted.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/model/smart.hpp"
 #include "interpreter/program/loading/cpu_choice.hpp"
 #include "interpreter/program/loading/dialect.hpp"
+#include "interpreter/program/loading/table_in_program.hpp"
 #include "interpreter/stl/blocks.hpp"
 #include "interpreter/stl/document.hpp"
 #include "interpreter/stl/drawings/drawings.hpp"
@@ -281,6 +283,15 @@ bool is_empty(const stl::ParseResult& parsed) {
          source.blocks.empty() && source.symbols.empty() && parsed.diagnostics.empty();
 }
 
+/// Adds the symbols of a table that stands in the text of a program. Returns how many they are.
+std::size_t add_symbols(std::string_view table, stl::ParseResult& program) {
+  stl::ParseResult read = stl::read_symbol_table(table, program.source.name);
+  const std::size_t symbols = read.source.symbols.size();
+  std::ranges::move(read.source.symbols, std::back_inserter(program.source.symbols));
+  std::ranges::move(read.diagnostics, std::back_inserter(program.diagnostics));
+  return symbols;
+}
+
 }  // namespace
 
 bool SourceText::is_program() const {
@@ -324,15 +335,20 @@ Result<SourceText> read_source(std::string_view bytes, const std::string& name, 
   }
   if (const std::string_view wrapped = why_wrapped(decoded->text); !wrapped.empty()) return Trouble{std::string(wrapped)};
   const auto inside = stl::program_in_strings(decoded->text);
-  const stl::PlainText plain(inside ? inside->text : decoded->text);
-  const auto cpu_line = place_of_cpu_line(plain.text());
-  auto source = cpu_line ? read_plain(std::string(plain.text()).insert(*cpu_line, "// "), name, force_document)
-                         : read_plain(plain.text(), name, force_document);
+  const stl::PlainText plain(inside ? inside->text : decoded->text, instruction_set().has);
+  const auto with_table = table_in_program(plain.text(), instruction_set().has);
+  const std::string_view text = with_table ? std::string_view(with_table->program) : plain.text();
+  const auto cpu_line = place_of_cpu_line(text);
+  auto source = cpu_line ? read_plain(std::string(text).insert(*cpu_line, "// "), name, force_document)
+                         : read_plain(text, name, force_document);
   if (!source) return Trouble{why_not_stl(plain.text())};
   if (source->kind == SourceKind::Listing || source->as_document()) stl::name_drawings(source->parsed, instruction_set());
   if (!plain.symbols().empty() && kind_of_table(plain.symbols()) == SourceKind::SymbolTable)
-    std::ranges::move(stl::read_symbol_table(plain.symbols(), name).source.symbols,
-                      std::back_inserter(source->parsed.source.symbols));
+    add_symbols(plain.symbols(), source->parsed);
+  if (with_table) {
+    const std::size_t symbols = add_symbols(with_table->table, source->parsed);
+    source->parsed.notes.push_back(fmt::format("{}: {} read from the table in the text", name, counted(symbols, "symbol")));
+  }
   plain.restore(source->parsed);
   if (inside) source->parsed.notes.push_back(fmt::format("{}: {}", name, inside->note));
   source->encoding = decoded->encoding;

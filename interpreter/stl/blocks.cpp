@@ -149,6 +149,7 @@ class BlockReader {
     find_begins();
     for (number_ = 1; number_ <= lines_.size(); ++number_) read_line(lines_[number_ - 1]);
     if (open_) close_block(static_cast<std::uint32_t>(lines_.size()), false);
+    drop_title();
     number_blocks_without_number();
     parse_code();
     sort(result_.diagnostics);
@@ -237,6 +238,7 @@ class BlockReader {
   void read_outside(std::string_view code, std::string_view line) {
     if (code.empty()) return keep(line);
     if (keyword_of(code) == "TITLE") {  // written before the head of its block
+      drop_title();
       title_before_ = title_of(code, line);
       return;
     }
@@ -248,7 +250,10 @@ class BlockReader {
     if (keyword == "BEGIN") {
       state_ = State::Code;
     } else if (keyword == "TITLE") {
-      block().title = title_of(code, line);
+      if (const auto title = title_of(code, line); block().title.empty() || title == block().title)
+        block().title = title;
+      else
+        marks_.push_back({Mark::Kind::Comment, number_, block_index(), std::string(title)});
     } else if (const auto kind = declaration_kind(keyword)) {
       if (block().kind == Block::Kind::Interrupt && *kind != Variable::Kind::Temporary)
         error(position_of(code), "an interrupt routine has no parameters", "declare its variables with VAR");
@@ -272,6 +277,13 @@ class BlockReader {
       if (text.starts_with("//")) text.remove_prefix(2);
       marks_.push_back({Mark::Kind::Comment, number_, block_index(), std::string(trim_end(text))});
     }
+  }
+
+  /// Names a title that no block has taken.
+  void drop_title() {
+    if (const std::string title = std::exchange(title_before_, {}); !title.empty())
+      result_.notes.push_back(
+          fmt::format("{}: TITLE={} is left out: the head of no block follows it", result_.source.name, shortened(title)));
   }
 
   static std::string_view title_of(std::string_view code, std::string_view line) {
@@ -330,6 +342,7 @@ class BlockReader {
     networks_ = 0;
     declared_.clear();
     if (keyword == kDataBlock) {
+      title_before_.clear();  // a data block has a title that nothing shows
       state_ = State::Data;
       section("data block");
       return;

@@ -168,11 +168,11 @@ struct DialectSign {
   int weight;
 };
 
-constexpr int kEnough = 4;
+constexpr int kEnough = 4, kWeightOfBlank = 2;
 
 constexpr DialectSign kSigns[] = {
     {Dialect::Step7, has_step7_head, 4},
-    {Dialect::Step7, has_blank_in_address, 2},
+    {Dialect::Step7, has_blank_in_address, kWeightOfBlank},
     {Dialect::Step7, has_step7_operand, 2},
     {Dialect::Step7, compares_accumulators, 2},
     {Dialect::Il, declares_at_address, 2},
@@ -260,6 +260,9 @@ bool is_own(const CodeLine& line) {
          std::ranges::find(kShared, line.word(0)) == std::end(kShared);
 }
 
+/// `LD I0.0`: STEP 7 has no LD, so that a text with it is none of STEP 7, whatever blanks its addresses have.
+bool is_load(const CodeLine& line) { return is_among(line.word(0), {"LD", "LDN"}) && line.words.size() > 1; }
+
 /// The message for a dialect, and the place where it showed first.
 struct Evidence {
   int weight = 0, strongest = 0;
@@ -270,6 +273,8 @@ class Judge {
  public:
   void see(const CodeLine& line, const stl::Position& at) {
     own_ += is_own(line);
+    loads_ = loads_ || is_load(line);
+    blanks_in_addresses_ += has_blank_in_address(line);
     for (const DialectSign& sign : kSigns)
       if (sign.shows(line)) count(sign.dialect, sign.weight, at);
     const auto operands = static_cast<int>(line.words.size()) - 1;
@@ -277,7 +282,9 @@ class Judge {
       if (row.word == line.word(0) && (row.operands < 0 || row.operands == operands)) count(row.dialect, row.weight, at);
   }
 
-  std::optional<stl::Diagnostic> verdict() const {
+  std::optional<stl::Diagnostic> verdict() {
+    Evidence& step7 = evidence_[static_cast<std::size_t>(Dialect::Step7)];
+    if (loads_) step7.weight -= kWeightOfBlank * blanks_in_addresses_;
     const auto best = std::ranges::max_element(evidence_, {}, &Evidence::weight);
     constexpr int kAgainstOwn = 3;     // so often as many for another dialect as lines of the S7-200
     constexpr int kMoreThanAWord = 2;  // text has words such as AND and SET, too
@@ -297,7 +304,8 @@ class Judge {
   }
 
   std::array<Evidence, kDialects> evidence_{};
-  int own_ = 0;
+  int own_ = 0, blanks_in_addresses_ = 0;
+  bool loads_ = false;
 };
 
 }  // namespace

@@ -489,6 +489,12 @@ bool is_symbol_table(std::string_view text, const std::function<bool(std::string
   return rows > statements + other;
 }
 
+bool is_head_of_symbols(std::string_view line) {
+  using enum Separator;
+  return std::ranges::any_of(std::array{Tab, Semicolon, Comma, Bar, Blanks},
+                             [&](Separator separator) { return headings(cells_of(line, separator)).has_value(); });
+}
+
 ParseResult read_symbol_table(std::string_view text, std::string name) {
   return SymbolTableReader(text, std::move(name)).result();
 }

@@ -16,6 +16,9 @@ namespace s7200::stl {
 /// Whether `text` (UTF-8) is a symbol table. `is_mnemonic` tells one from a listing with a tab after each mnemonic.
 bool is_symbol_table(std::string_view text, const std::function<bool(std::string_view word)>& is_mnemonic);
 
+/// Whether a line is the heading of such a table: `Symbol;Address;Comment`.
+bool is_head_of_symbols(std::string_view line);
+
 ParseResult read_symbol_table(std::string_view text, std::string name);
 
 /// Whether it is a status chart: addresses with formats and values, of which nothing is part of a program. A table with

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include "interpreter/base/text/text.hpp"
@@ -15,10 +16,23 @@ namespace {
 /// follow them: `#name` is a local variable, and `--` is a wire.
 struct Sign {
   std::string_view sign;
-  bool needs_blank;
+  enum class Where : std::uint8_t {
+    Anywhere,     ///< also a line of its own where no such comment stands after a statement
+    AfterCode,    ///< and a line of its own only where one does
+    Alone,        ///< in a line of its own
+    AfterAddress  ///< after a statement that ends with an address or a number
+  } where;
+  bool needs_blank = true;
 };
-constexpr std::array kLineSigns{Sign{";", false}, Sign{"--", true}, Sign{"#", true},   Sign{"'", true},
-                                Sign{"!", true},  Sign{"%%", true}, Sign{"\\\\", true}};
+using Where = Sign::Where;
+constexpr std::array kLineSigns{
+    Sign{";", Where::Anywhere, false}, Sign{"--", Where::Anywhere},     Sign{"#", Where::AfterCode},
+    Sign{"'", Where::AfterCode},       Sign{"!", Where::AfterCode},     Sign{"%%", Where::Anywhere},
+    Sign{"\\\\", Where::AfterCode},    Sign{"REM", Where::Anywhere},    Sign{"Rem", Where::Anywhere},
+    Sign{"rem", Where::Anywhere},      Sign{"%", Where::Anywhere},      Sign{"::", Where::Alone},
+    Sign{"*", Where::Alone},           Sign{"-", Where::AfterAddress},  Sign{":", Where::AfterAddress},
+    Sign{"|", Where::AfterAddress},    Sign{"<-", Where::AfterAddress}, Sign{"<--", Where::AfterAddress},
+    Sign{"->", Where::AfterAddress},   Sign{"=>", Where::AfterAddress}};
 
 /// The first of some texts in the code of a line, outside of quoted text.
 struct Place {
@@ -53,7 +67,7 @@ class BracketReader {
   }
 
  private:
-  static constexpr std::array<std::string_view, 2> kOpen{"(*", "/*"}, kClose{"*)", "*/"};
+  static constexpr std::array<std::string_view, 4> kOpen{"(*", "/*", "<!--", "{ "}, kClose{"*)", "*/", "-->", " }"};
 
   void read(std::size_t i) {
     const std::string line = std::move(lines_[i]);
@@ -86,13 +100,14 @@ class BracketReader {
   }
 
   bool is_closed(std::size_t i, std::string_view line, const Place& begin) const {
-    return last_close_[begin.which] > i || line.find(kClose[begin.which], begin.at + kOpen[begin.which].size()) != line.npos;
+    return (last_close_[begin.which] > i && kOpen[begin.which] != "{ ") ||
+           line.find(kClose[begin.which], begin.at + kOpen[begin.which].size()) != line.npos;
   }
 
   std::vector<std::string>& lines_;
   std::vector<bool> changed_;
-  std::array<std::size_t, 2> last_close_{};  // the last line that has each closing bracket
-  std::optional<std::size_t> open_{};        // the kind of the one that is open
+  std::array<std::size_t, kOpen.size()> last_close_{};  // the last line that has each closing bracket
+  std::optional<std::size_t> open_{};                   // the kind of the one that is open
 };
 
 bool has_letter(std::string_view text) {
@@ -118,6 +133,12 @@ bool goes_on_after_semicolon(std::string_view text) {
          (split_words(text).size() == 1 && looks_like_statement("LD " + std::string(text)));
 }
 
+/// Whether what follows a dash or a colon may be a statement or an operand: `LD I0.0 : A I0.1`, `MOVW 5 - VW10`.
+bool may_be_code_too(std::string_view text) {
+  const std::string_view first = text.substr(0, text.find_first_of(" \t,"));
+  return looks_like_statement(text) || looks_like_statement("LD " + std::string(first)) || !has_letter(first);
+}
+
 /// The comment that begins with a sign in a line.
 struct Found {
   std::size_t begin = 0;
@@ -140,7 +161,10 @@ std::optional<Found> comment_after(std::string_view line, const Sign& sign) {
     const bool begins = !sign.needs_blank || (apart && !text.empty() && is_blank(text.front()));
     const std::string_view words = trim(text);
     if (code.empty() || !begins || !has_letter(words) || words.starts_with("//")) continue;
-    const bool sure = looks_like_statement(code) || (is_network(code) && code.size() > 7 && is_digit(code.back()));
+    const bool of_network = is_network(code) && code.size() > 7 && is_digit(code.back());
+    const bool sure = looks_like_statement(code) || of_network;
+    if (sign.where == Where::AfterAddress && (of_network || !sure || !is_digit(code.back()) || may_be_code_too(words)))
+      continue;
     if (!sure && !(apart && may_be_code(code))) continue;
     if (sign.sign == ";" && (code.find(';') != code.npos || goes_on_after_semicolon(words))) continue;
     return Found{at, sure};
@@ -152,6 +176,10 @@ bool is_comment_line(std::string_view line, const Sign& sign) {
   const std::string_view text = trim(line);
   if (!text.starts_with(sign.sign)) return false;
   std::string_view words = text.substr(sign.sign.size());
+  if (is_letter(sign.sign.front())) {  // but `REM I0.0` is a row of a table of symbols
+    const std::string_view after = trim(words), first = after.substr(0, after.find_first_of(" \t"));
+    return (words.empty() || is_blank(words.front())) && !looks_like_statement("LD " + std::string(first));
+  }
   words.remove_prefix(std::min(words.find_first_not_of(sign.sign.front()), words.size()));
   const bool apart = !words.empty() && is_blank(words.front());
   words = trim(words);
@@ -161,22 +189,34 @@ bool is_comment_line(std::string_view line, const Sign& sign) {
   return sign.sign != "'" || text.find('\'', 1) == text.npos;
 }
 
-bool has_stroke(std::string_view line) { return line.find('|') != line.npos; }
+/// `* LD I0.0`
+bool begins_row_of_list(std::string_view line) {
+  const std::string_view text = trim(line);
+  const std::vector<std::string> words = split_words(text);
+  return text.starts_with("* ") && words.size() > 2 && looks_like_statement("LD " + words[2]);
+}
+
+/// Whether a line may be of a drawing or a table. A single stroke after code may begin a comment.
+bool has_strokes(std::string_view line, std::string_view sign = {}) {
+  return sign == "|" ? trim(line).starts_with('|') || std::ranges::count(line, '|') > 1 : line.find('|') != line.npos;
+}
 
 /// Puts // in place of the signs that the text has comments after. A line of its own is read as such a comment only where
 /// another comment stands after a statement, but for `;` and `--`, which nothing else begins with.
 void rewrite_after_sign(std::vector<std::string>& lines, const Sign& sign, std::vector<bool>& changed) {
-  bool any_sure = false, any_statement = false;
+  bool any_sure = false, any_statement = false, is_list = false;
   for (const std::string& line : lines) {
-    const auto found = has_stroke(line) ? std::nullopt : comment_after(line, sign);
+    const bool none = has_strokes(line, sign.sign) || sign.where == Where::Alone;
+    const auto found = none ? std::nullopt : comment_after(line, sign);
     any_sure |= found && found->sure;
     any_statement |= looks_like_statement(line);
+    if (sign.sign == "*") is_list = is_list || begins_row_of_list(line);
   }
-  const bool alone = any_sure || (any_statement && (sign.sign == ";" || sign.sign == "--"));
-  for (std::size_t i = 0; i < lines.size(); ++i) {
+  const bool alone = sign.where != Where::AfterAddress && (any_sure || (any_statement && sign.where != Where::AfterCode));
+  for (std::size_t i = 0; i < lines.size() && !is_list; ++i) {
     std::string& line = lines[i];
     std::optional<std::size_t> begin;
-    if (has_stroke(line)) continue;
+    if (has_strokes(line, sign.sign)) continue;
     if (const auto found = any_sure ? comment_after(line, sign) : std::nullopt)
       begin = found->begin;
     else if (alone && is_comment_line(line, sign))
@@ -187,14 +227,60 @@ void rewrite_after_sign(std::vector<std::string>& lines, const Sign& sign, std::
   }
 }
 
+// --- `LD I0.0 (start)`, `A I0.1 [stop]` ---
+
+struct Bracket {
+  std::string_view open, close;
+};
+constexpr std::array kBrackets{Bracket{"(", ")"}, Bracket{"[", "]"}, Bracket{"{", "}"}, Bracket{"<", ">"},
+                               Bracket{"\uFF08", "\uFF09"}};
+
+/// The comment in brackets that ends a line: words in them, after a statement or alone. Nothing for `(Q0.0)`, which may be
+/// the address that a name before it has.
+std::optional<Found> comment_in_brackets(std::string_view line) {
+  const std::string_view text = trim_end(line);
+  const auto kind = std::ranges::find_if(kBrackets, [text](const Bracket& each) { return text.ends_with(each.close); });
+  if (kind == kBrackets.end() || has_strokes(line) || text.find("//") != text.npos) return {};
+  const std::size_t begin = text.find(kind->open);
+  if (begin == text.npos || (begin > 0 && !is_blank(text[begin - 1]))) return {};
+  const std::string_view code = trim(text.substr(0, begin)), last = code.substr(code.find_last_of(" \t,;") + 1);
+  std::string_view words = text.substr(begin + kind->open.size());
+  words.remove_suffix(kind->close.size());
+  const std::size_t word = code.find_first_of(" \t,;");
+  if (word != code.npos && !is_blank(code[word])) return {};  // a row of a table
+  const bool sure = looks_like_statement(code) && std::ranges::any_of(last, is_digit) && may_be_code(code);
+  if (!has_letter(words) || (!sure && split_words(words).size() == 1 && looks_like_statement("LD " + std::string(words))) ||
+      code.find_first_of("'\"") != code.npos)
+    return {};
+  return sure || code.empty() || may_be_code(code) ? std::optional(Found{begin, sure}) : std::nullopt;
+}
+
+void rewrite_brackets_at_end(std::vector<std::string>& lines, std::vector<bool>& changed) {
+  const auto is_sure = [](const std::string& line) {
+    const auto found = comment_in_brackets(line);
+    return found && found->sure;
+  };
+  if (std::ranges::none_of(lines, is_sure)) return;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const auto found = comment_in_brackets(lines[i]);
+    if (!found) continue;
+    lines[i].insert(found->begin, "// ");
+    changed[i] = true;
+  }
+}
+
 }  // namespace
 
 bool may_have_foreign_comment(std::string_view line) {
-  const std::size_t at = line.find_first_of(";#'*-!%\\");
+  constexpr std::string_view kFirst = ";#'*-!%\\:{([<>|\xEF";
+  const bool rem = line.find("REM") != line.npos || line.find("rem") != line.npos || line.find("Rem") != line.npos;
+  if (rem) return true;
+  const std::size_t at = line.find_first_of(kFirst);
   if (at == line.npos) return false;
   const auto has = [&](std::string_view sign) { return line.find(sign) != line.npos; };
   return has(";") || has("(*") || has("/*") || has("# ") || has("-- ") || has("' ") || has("! ") || has("%% ") ||
-         has("\\\\ ");
+         has("\\\\ ") || has("* ") || has("% ") || has(": ") || has("- ") || has("| ") || has("> ") || has("{ ") ||
+         has("<!--") || comment_in_brackets(line);
 }
 
 std::vector<bool> rewrite_foreign_comments(std::vector<std::string>& lines) {
@@ -202,6 +288,7 @@ std::vector<bool> rewrite_foreign_comments(std::vector<std::string>& lines) {
   std::vector<bool> changed = BracketReader(lines).run();
   for (const Sign& sign : kLineSigns)
     if (!(fenced && sign.sign == "#")) rewrite_after_sign(lines, sign, changed);
+  rewrite_brackets_at_end(lines, changed);
   return std::ranges::find(changed, true) == changed.end() ? std::vector<bool>{} : changed;
 }
 

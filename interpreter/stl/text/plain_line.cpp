@@ -11,7 +11,7 @@
 namespace s7200::stl::plain {
 namespace {
 
-constexpr std::array<std::pair<Change, std::string_view>, 20> kChangeNames{{
+constexpr std::array<std::pair<Change, std::string_view>, 22> kChangeNames{{
     {kBlanks, "no-break and other Unicode blanks"},
     {kFullWidth, "full-width signs"},
     {kQuotes, "typographic quotes"},
@@ -32,6 +32,8 @@ constexpr std::array<std::pair<Change, std::string_view>, 20> kChangeNames{{
     {kInformation, "symbol information of a printout"},
     {kSemicolons, "semicolons for commas"},
     {kComments, "comments of other languages"},
+    {kWrapping, "text of another language around it"},
+    {kGaps, "blanks within addresses"},
 }};
 
 // --- single characters ---
@@ -447,7 +449,7 @@ bool looks_like_statement(std::string_view line) {
 
 std::vector<WrittenLine> written_lines(std::string_view line, Part part, bool html) {
   LineWriter writer(line, html);
-  writer.skip(part.from, kHtml);
+  writer.skip(part.from, html ? kHtml : kWrapping);
   return writer.run(part.to);
 }
 

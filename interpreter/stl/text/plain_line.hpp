@@ -31,6 +31,8 @@ enum Change : std::uint32_t {
   kInformation = 1U << 17,
   kSemicolons = 1U << 18,
   kComments = 1U << 19,
+  kWrapping = 1U << 20,
+  kGaps = 1U << 21,
 };
 
 /// The names of changes, for a note.

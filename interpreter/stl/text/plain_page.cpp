@@ -12,6 +12,7 @@
 
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/headings.hpp"
+#include "interpreter/stl/text/network_heading.hpp"
 
 namespace s7200::stl::plain {
 namespace {
@@ -131,7 +132,9 @@ Part inside_quotes(std::string_view line) {
 char separator_of_row(std::string_view line) {
   const std::string_view code = trim(code_of(line));
   if (code.starts_with('|')) return '|';
-  const std::size_t sign = code.find_first_of(" \t;,");
+  const bool quoted = code.starts_with('"') || code.starts_with('\'');
+  const std::size_t first = quoted ? std::min(code.find(code.front(), 1), code.size()) : 0;
+  const std::size_t sign = code.find_first_of(" \t;,", first);
   if (sign == code.npos || sign + 1 == code.size() || code[sign] == ' ') return '\0';
   return code[sign];
 }
@@ -139,10 +142,11 @@ char separator_of_row(std::string_view line) {
 /// The cells of `LD;I0.0;"start; again"`, each without the sign in front of it.
 std::vector<Part> cells_between(std::string_view line, char separator) {
   std::vector<Part> cells;
+  const char quote = trim(line).starts_with('\'') ? '\'' : '"';
   bool quoted = false;
   std::size_t from = 0;
   for (std::size_t at = 0; at <= line.size(); ++at) {
-    if (at < line.size() && line[at] == '"') quoted = !quoted;
+    if (at < line.size() && line[at] == quote) quoted = !quoted;
     if (at < line.size() && (line[at] != separator || quoted)) continue;
     cells.push_back({from, at});
     from = at + 1;
@@ -173,6 +177,28 @@ bool is_rule(std::string_view line) {
   return line.find_first_not_of("|-+:= \t") == line.npos && line.find('-') != line.npos;
 }
 
+/// The first gap of several blanks, or a tab, after the first operand of a line; at its end if there is none.
+Part gap_after_operand(std::string_view code) {
+  const Part none{code.size(), code.size()};
+  const std::size_t begin = code.find_first_not_of(" \t");
+  const std::size_t mnemonic = begin == code.npos ? code.npos : code.find_first_of(" \t", begin);
+  const std::size_t operand = mnemonic == code.npos ? code.npos : code.find_first_not_of(" \t", mnemonic);
+  if (operand == code.npos) return none;
+  const std::size_t gap = std::min(code.find("  ", operand), code.find('\t', operand));
+  const std::size_t words = gap == code.npos ? code.npos : code.find_first_not_of(" \t", gap);
+  return words == code.npos ? none : Part{gap, words};
+}
+
+/// `-----`, `=====`, `* * *`: a line of one sign.
+bool is_plain_rule(std::string_view line) {
+  constexpr std::size_t kShortest = 3;
+  const std::string_view text = trim(line);
+  const char sign = text.empty() ? '\0' : text.front();
+  return std::string_view("-=*_+#").find(sign) != std::string_view::npos &&
+         static_cast<std::size_t>(std::ranges::count(text, sign)) >= kShortest &&
+         std::ranges::all_of(text, [sign](char c) { return c == sign || c == ' '; });
+}
+
 bool is_one_operand(std::string_view cell) {
   for (std::string_view rest = cell; !rest.empty();) {
     const std::size_t comma = std::min(rest.find(','), rest.size());
@@ -186,16 +212,18 @@ bool is_one_operand(std::string_view cell) {
 }
 
 std::string_view text_of(std::string_view line, const Part& cell) {
-  constexpr std::string_view kBlanksAndQuotes = " \t\"";
-  std::string_view text = line.substr(cell.from, cell.to - cell.from);
-  text.remove_prefix(std::min(text.find_first_not_of(kBlanksAndQuotes), text.size()));
-  return text.substr(0, text.find_last_not_of(kBlanksAndQuotes) + 1);
+  std::string_view text = trim(line.substr(cell.from, cell.to - cell.from));
+  const bool in_signs = text.size() > 1 && text.front() == '\'' && text.back() == '\'' && line.starts_with('\'');
+  const std::string_view around = in_signs ? " \t'" : " \t\"";
+  text.remove_prefix(std::min(text.find_first_not_of(around), text.size()));
+  return text.substr(0, text.find_last_not_of(around) + 1);
 }
 
 /// Whether a row names columns of a listing: `Nr;Instruction;Operand`
 bool names_instructions(std::string_view line, const std::vector<Part>& cells) {
-  static constexpr std::string_view kNames[] = {"INSTRUCTION", "INSTR",  "INSTR.", "OPERAND",   "OPERANDS",
-                                                "MNEMONIC",    "OPCODE", "BEFEHL", "ANWEISUNG", "OPERATION"};
+  static constexpr std::string_view kNames[] = {
+      "INSTRUCTION", "INSTR", "INSTR.", "OPERAND",   "OPERANDS",   "MNEMONIC",  "OPCODE",      "BEFEHL", "ANWEISUNG",
+      "OPERATION",   "STL",   "AWL",    "STATEMENT", "STATEMENTS", "INSTRUCAO", "INSTRUCCION", "指令"};
   bool any = false;
   for (const Part& cell : cells) {
     const std::string_view text = text_of(line, cell);
@@ -254,9 +282,11 @@ CellsRead read_cells(Row& row, const std::vector<Part>& cells) {
   if (const std::size_t end = cells.back().to; original.substr(end, 1) == "|") row.replace(end, 1, " ", kTable);
   for (std::size_t i = cells.size(); i-- > 0;) {
     const Part cell = cells[i];
-    const bool quoted = std::string_view(original).substr(cell.from, cell.to - cell.from).find('"') != original.npos;
-    for (std::size_t at = cell.to; quoted && at-- > cell.from;)
-      if (original[at] == '"') row.replace(at, 1, " ", kTable);
+    const std::string_view text = text_of(original, cell), whole = std::string_view(original).substr(0, cell.to);
+    const auto begin = static_cast<std::size_t>(text.data() - whole.data());
+    for (std::size_t at = cell.to; at-- > cell.from;)
+      if (original[at] == '"' || (original[at] == '\'' && (at < begin || at >= begin + text.size())))
+        row.replace(at, 1, " ", kTable);
     if (cell.from > 0) row.replace(cell.from - 1, 1, separators[i], kTable);
   }
   if (!number.empty()) row.replace(number.from, number.to - number.from, "", kTable);
@@ -265,66 +295,9 @@ CellsRead read_cells(Row& row, const std::vector<Part>& cells) {
 
 // --- headings, letters, comments, printouts ---
 
-/// The word for a network at the beginning of a heading; 0 bytes if there is none. Beyond ASCII as they are written.
-std::size_t network_word(std::string_view text) {
-  static constexpr std::string_view kAscii[] = {"NETZWERK", "RESEAU", "SEGMENTO", "NETWERK", "REDE",   "RETE",
-                                                "RED",      "RUNG",   "NW",       "NET",     "NETWORK"};
-  static constexpr std::string_view kBeyond[] = {"RÉSEAU", "Réseau", "réseau", "СЕТЬ",        "Сеть", "сеть",
-                                                 "网络",   "程序段", "SIEĆ",   "Sieć",        "sieć", "SÍŤ",
-                                                 "Síť",    "AĞ",     "Ağ",     "ネットワーク"};
-  const auto letters = static_cast<std::size_t>(std::ranges::find_if_not(text, is_letter) - text.begin());
-  const std::string word = letters > 0 && letters <= 8 ? upper_case(text.substr(0, letters)) : "";
-  if (!word.empty() && std::ranges::find(kAscii, word) != std::end(kAscii)) return letters;
-  const auto* const beyond = std::ranges::find_if(kBeyond, [text](std::string_view each) { return text.starts_with(each); });
-  return beyond == std::end(kBeyond) ? 0 : beyond->size();
-}
-
-/// A heading of a network that is not written as STL has it: `Netzwerk 1`, `Réseau 2: arrêt`, `Network #3`, `Network 1 -
-/// Start`; in printouts `Network 2    Timer`.
-struct NetworkHeading {
-  std::size_t begin = 0, end = 0;  ///< of the word and its number
-  std::string_view number{}, title{};
-};
-std::optional<NetworkHeading> network_heading(std::string_view line) {
-  constexpr std::size_t kMostDigits = 5;
-  constexpr std::string_view kDashes[] = {":", "：", ".", "-", "–", "—"};
-  NetworkHeading heading{.begin = std::min(line.find_first_not_of(" \t"), line.size())};
-  std::string_view rest = line.substr(heading.begin);
-  const std::size_t word = network_word(rest);
-  if (word == 0) return std::nullopt;
-  const std::string_view written = rest.substr(0, word);
-  const bool own = upper_case(written) == "NETWORK";
-  rest.remove_prefix(word);
-  const auto skip_blanks = [&] { rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size())); };
-  skip_blanks();
-  const bool sharp = rest.starts_with('#');
-  if (sharp) rest.remove_prefix(1);
-  heading.number = rest.substr(0, std::min(rest.find_first_not_of("0123456789"), rest.size()));
-  if (heading.number.empty() || heading.number.size() > kMostDigits) return std::nullopt;
-  rest.remove_prefix(heading.number.size());
-  heading.end = static_cast<std::size_t>(rest.data() - line.data());
-  const bool apart = rest.starts_with('\t') || rest.starts_with("  ");
-  skip_blanks();
-  heading.title = trim(rest);
-  if (rest.empty() || rest.starts_with("//")) return !own || sharp ? std::optional(heading) : std::nullopt;
-  const auto* const dash = std::ranges::find_if(kDashes, [rest](std::string_view each) { return rest.starts_with(each); });
-  if (dash != std::end(kDashes)) heading.title = trim(rest.substr(dash->size()));
-  if (own && !sharp) {  // a title as printouts have it: no statement has such a word
-    const std::string_view first = heading.title.substr(0, heading.title.find_first_of(" \t"));
-    if (heading.title.empty() || looks_like_statement(heading.title) || is_digit(rest.substr(1, 1).empty() ? ' ' : rest[1]))
-      return std::nullopt;
-    const bool marked = dash != std::end(kDashes) || rest.starts_with('(') || rest.starts_with('"');
-    const bool printed = apart && is_upper(first[0]) && std::ranges::any_of(first, is_lower) && written == "Network";
-    return marked || printed ? std::optional(heading) : std::nullopt;
-  }
-  return dash != std::end(kDashes) || rest.starts_with('(') ? std::optional(heading) : std::nullopt;
-}
-
-void write_network_heading(Row& row) {
-  const auto heading = network_heading(row.text);
-  if (!heading) return;
-  const std::string title(heading->title), number(heading->number);
-  const std::size_t begin = heading->begin, end = heading->end;
+void write_network_heading(Row& row, const NetworkHeading& heading) {
+  const std::string title(heading.title), number(heading.number);
+  const std::size_t begin = heading.begin, end = heading.end;
   const bool commented = title.empty() || title.starts_with("//");
   row.replace(end, row.text.size() - end, "", kHeadings);
   if (!title.empty()) row.append(fmt::format(" {}{}", commented ? "" : "// ", title), kHeadings);
@@ -361,10 +334,50 @@ bool is_only_letter(std::string_view line) {
   return text.size() == 1 && (is_upper(text[0]) || is_digit(text[0]));
 }
 
+/// The gaps within addresses of a statement: `M 0.1`, `VB 10`, `I0 .0`, each as the place and the number of its blanks. The
+/// first word is the mnemonic.
+std::vector<Part> gaps_in_addresses(std::string_view line) {
+  static constexpr std::string_view kAreas[] = {"I",  "Q",  "V",  "M",  "SM",  "S",   "T",   "C",   "L",   "HC",  "AC", "AI",
+                                                "AQ", "E",  "A",  "Z",  "IB",  "IW",  "ID",  "QB",  "QW",  "QD",  "VB", "VW",
+                                                "VD", "MB", "MW", "MD", "SB",  "SW",  "SD",  "LB",  "LW",  "LD",  "EB", "EW",
+                                                "ED", "AB", "AW", "AD", "SMB", "SMW", "SMD", "AIW", "AQW", "AEW", "AAW"};
+  std::vector<Part> gaps;
+  const std::string_view code = code_of(line);
+  if (code.find_first_of("'\"") != code.npos) return gaps;
+  std::size_t begin = std::min(code.find_first_not_of(" \t"), code.size());
+  begin = std::min(code.find_first_of(" \t", begin), code.size());  // after the mnemonic
+  for (std::size_t at = begin; at < code.size();) {
+    const std::size_t to = std::min(code.find_first_not_of(" \t", at), code.size());
+    if (to == at) {
+      ++at;
+      continue;
+    }
+    std::size_t first = at;
+    while (first > begin && (is_letter(code[first - 1]) || is_digit(code[first - 1]) || code[first - 1] == '.')) --first;
+    const std::string word = upper_case(code.substr(first, at - first));
+    const char next = to < code.size() ? code[to] : '\0';
+    const bool after_area = is_digit(next) && std::ranges::find(kAreas, word) != std::end(kAreas);
+    const bool begins = !word.empty() && (is_letter(word.front()) || (!gaps.empty() && gaps.back().to == first));
+    const bool has_area = begins && is_digit(word.back() == '.' ? '0' : word.back());
+    const bool at_point = has_area && ((next == '.' && word.back() != '.') || (is_digit(next) && word.back() == '.'));
+    if (after_area || at_point) gaps.push_back({at, to});
+    at = to;
+  }
+  return gaps;
+}
+
+Row without_gaps(const Row& row) {
+  Row closed = row;
+  const std::vector<Part> gaps = gaps_in_addresses(row.text);
+  for (auto gap = gaps.rbegin(); gap != gaps.rend(); ++gap) closed.replace(gap->from, gap->to - gap->from, "", kGaps);
+  return closed;
+}
+
 /// Changes that need all lines together. One step may uncover the next: `> 1. LD I0.0`, a fence in a quoted mail.
 class PageReader {
  public:
-  explicit PageReader(std::vector<Row> rows) : rows_(std::move(rows)) {}
+  PageReader(std::vector<Row> rows, const KnowsInstruction& is_instruction)
+      : rows_(std::move(rows)), is_instruction_(is_instruction) {}
 
   void run() {
     constexpr int kMostSteps = 6;
@@ -381,6 +394,9 @@ class PageReader {
           !leave_out_quotes() && !leave_out_numbers() && !leave_out_marks(list_mark))
         break;
     write_network_headings();
+    make_comments_of_rules();
+    close_gaps_in_addresses();
+    make_comments_of_words_apart();
   }
 
   /// Paragraphs and headings between the lines of a program that has tags or is quoted, too. `lines` are those of the
@@ -458,8 +474,8 @@ class PageReader {
   }
 
   /// Makes statements of the rows of a table, and leaves out its heads and rules. A table of symbols stays one: of its first
-  /// words each is a name, and no two are the same. Where its cells have no strokes, it takes a coil, or a head that speaks
-  /// of instructions, to tell; and a table with tabs is read as one only for its comments.
+  /// words each is a name, and no two are the same. Where its cells have no strokes, it takes a coil, a head that speaks
+  /// of instructions, or an instruction in each row, to tell; and a table with tabs is read as one only for its comments.
   bool leave_out_cells() {
     const auto first = std::ranges::find_if(rows_, [](const Row& row) { return separator_of_row(row.text) != '\0'; });
     if (first == rows_.end()) return false;
@@ -468,7 +484,7 @@ class PageReader {
     std::set<std::string> first_words;
     bool of_symbols = true, says_so = false, has_comment = false, has_coil = false;
     constexpr std::size_t kMostCells = 20;  // of a row of a listing
-    std::size_t in_table = 0, statements = 0, others = 0;
+    std::size_t in_table = 0, statements = 0, others = 0, instructions = 0;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const std::string_view text = rows_[i].text;
       const bool in_strokes = separator == '|';
@@ -490,6 +506,7 @@ class PageReader {
       ++in_table;
       has_comment |= row.has_comment;
       has_coil |= row.mnemonic == "=";
+      instructions += is_instruction_ && (upper_case(row.mnemonic) == "NETWORK" || is_statement(read[i].text)) ? 1U : 0U;
       if (!looks_like_statement(read[i].text)) continue;
       ++statements;
       const std::string word = split_words(read[i].text).front();
@@ -497,6 +514,7 @@ class PageReader {
       of_symbols = of_symbols && is_letter(word.front()) && first_words.insert(word).second &&
                    !(in_strokes && row.two_operands && in_capitals);
     }
+    says_so = says_so || (instructions == in_table && in_table > 1);
     if ((of_symbols && !says_so) || 3 * statements < in_table) return false;
     if (separator != '|' && ((!has_coil && !says_so) || in_table < 2 || others > 0)) return false;
     if (separator == '\t' && !has_comment) return false;
@@ -504,9 +522,101 @@ class PageReader {
     return true;
   }
 
+  /// Whether a text can be read as an instruction with its operands.
+  bool is_statement(std::string_view text) const {
+    constexpr std::size_t kMostOperands = 8, kLongestOfStack = 5;
+    std::string code(code_of(text));
+    std::ranges::replace(code, ',', ' ');
+    const std::vector<std::string> words = split_words(upper_case(code));
+    if (words.empty()) return false;
+    if (!is_instruction_)
+      return looks_like_statement(text) ||
+             (words.size() == 1 && words[0].size() <= kLongestOfStack && trim(code) == words[0]);
+    if (is_instruction_(words[0], words.size() - 1)) return true;
+    bool any = false;
+    for (std::size_t operands = 0; operands <= kMostOperands; ++operands) any = any || is_instruction_(words[0], operands);
+    return any && looks_like_statement(text);
+  }
+
+  /// Whether a line is an instruction with as many operands as it takes.
+  bool takes_as_written(std::string_view line) const {
+    std::string code(code_of(line));
+    std::ranges::replace(code, ',', ' ');
+    const std::vector<std::string> words = split_words(upper_case(code));
+    return !words.empty() && is_instruction_(words[0], words.size() - 1);
+  }
+
+  /// Whether a line that may be a heading or the beginning of a sentence is a heading: a statement follows, or it has the
+  /// next number.
+  bool is_heading_here(std::size_t at, const NetworkHeading& heading, std::uint32_t number, std::uint32_t last) const {
+    constexpr std::size_t kLongestTitle = 60;
+    if (number == last + 1 && heading.title.size() <= kLongestTitle && !heading.title.ends_with('.')) return true;
+    const auto says_something = [](const Row& row) { return !trim(code_of(row.text)).empty(); };
+    const auto next = std::find_if(rows_.begin() + static_cast<std::ptrdiff_t>(at) + 1, rows_.end(), says_something);
+    return next != rows_.end() && is_statement(next->text);
+  }
+
   void write_network_headings() {
-    if (std::ranges::none_of(rows_, [](const Row& row) { return looks_like_statement(row.text); })) return;
-    for (Row& row : rows_) write_network_heading(row);
+    if (std::ranges::none_of(rows_, [this](const Row& row) { return is_statement(row.text); })) return;
+    std::uint32_t last = 0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      Row& row = rows_[i];
+      const auto heading = network_heading(row.text);
+      const std::vector<std::string> words = heading ? std::vector<std::string>{} : split_words(code_of(row.text));
+      const bool own = words.size() == 2 && upper_case(words[0]) == "NETWORK";
+      if (!heading && !own) continue;
+      const std::string_view digits = heading ? heading->number : std::string_view(words[1]);
+      std::uint32_t number = 0;
+      std::from_chars(digits.data(), digits.data() + digits.size(), number);
+      const bool is_one = own || ((heading->framed || !is_statement(heading->title)) &&
+                                  (heading->sure || is_heading_here(i, *heading, number, last)));
+      if (!is_one) continue;
+      last = number;
+      if (heading) write_network_heading(row, *heading);
+    }
+  }
+
+  /// Where words stand apart from a whole statement, and can be neither its operands nor a statement: `LD I0.0    start
+  /// key`.
+  std::optional<std::size_t> words_apart(std::string_view line) const {
+    const std::string_view code = trim_end(code_of(line));
+    const auto [gap, words] = gap_after_operand(code);
+    if (words == code.size() || code.size() < line.size() || code.find_first_of("'\"|") != code.npos) return {};
+    const std::string_view text = code.substr(words), first = text.substr(0, text.find_first_of(" \t"));
+    const bool is_word = is_letter(text.front()) || static_cast<unsigned char>(text.front()) >= 0x80;
+    if (!is_word || first.ends_with(',') || may_be_operand(first) || is_statement(text)) return {};
+    return takes_as_written(code.substr(0, gap)) && !takes_as_written(code) ? std::optional(words) : std::nullopt;
+  }
+
+  /// Puts // before such words if all other lines are statements: in a document they may be text.
+  void make_comments_of_words_apart() {
+    if (!is_instruction_) return;
+    const auto is_of_listing = [this](const Row& row) {
+      return stands_without_mark(row.text) || is_statement(row.text) || words_apart(row.text);
+    };
+    if (!std::ranges::all_of(rows_, is_of_listing)) return;
+    for (Row& row : rows_)
+      if (const auto words = words_apart(row.text)) row.replace(*words, 0, "// ", kComments);
+  }
+
+  /// Puts // before a line of strokes between networks: `---------`
+  void make_comments_of_rules() {
+    for (Row& row : rows_)
+      if (is_plain_rule(row.text)) row.replace(0, 0, "// ", kComments);
+  }
+
+  /// Reads `O M 0.1` as `O M0.1` where only that is an instruction. STEP 7 has such addresses, but no LD.
+  void close_gaps_in_addresses() {
+    const auto loads = [](const Row& row) {
+      const std::string begin = upper_case(trim(row.text).substr(0, 2));
+      return begin == "LD" && looks_like_statement(without_gaps(row).text);
+    };
+    if (!is_instruction_ || std::ranges::none_of(rows_, loads)) return;
+    for (Row& row : rows_) {
+      Row closed = without_gaps(row);
+      if (closed.changes == row.changes) continue;
+      if (takes_as_written(closed.text) && !takes_as_written(row.text)) row = std::move(closed);
+    }
   }
 
   /// Makes `MAIN` of four rows with a letter each, as the text of a page has it that prints the heading down its margin.
@@ -617,6 +727,7 @@ class PageReader {
   }
 
   std::vector<Row> rows_;
+  const KnowsInstruction& is_instruction_;
   std::vector<std::uint32_t> left_out_{};
   std::uint32_t around_ = 0;
 };
@@ -641,11 +752,18 @@ void Row::append(std::string_view more, Change change) {
   text += more;
 }
 
+/// Whether words in small letters stand apart at the end of a line: `LD I0.0   start`
+bool has_words_apart(std::string_view code) {
+  return std::ranges::any_of(code.substr(gap_after_operand(code).to),
+                             [](char c) { return is_lower(c) || static_cast<unsigned char>(c) >= 0x80; });
+}
+
 bool may_need_page(std::string_view line) {
   const std::string_view code = trim(code_of(line));
   if (code.size() < line.size() && trim(line).ends_with('-')) return true;  // a broken comment
   if (code.empty()) return false;
   if (may_have_margin(line) || is_only_letter(code) || network_heading(code) || file_and_line(code) != 0) return true;
+  if (!gaps_in_addresses(code).empty() || is_plain_rule(code) || has_words_apart(code)) return true;
   if (const std::size_t semicolon = code.find(';'); semicolon < code.size() - 1) return true;
   return (separator_of_row(code) != '\0' && code.find_first_of(";,\t") != code.size() - 1) || is_head_of_information(code);
 }
@@ -658,8 +776,8 @@ bool may_have_margin(std::string_view line) {
   return (line[from] == '-' || line[from] == '*') && (next == " " || next == "\t" || next == "*");
 }
 
-Page read_page(std::vector<Row> rows, const std::vector<std::string>& lines) {
-  PageReader reader(std::move(rows));
+Page read_page(std::vector<Row> rows, const std::vector<std::string>& lines, const KnowsInstruction& is_instruction) {
+  PageReader reader(std::move(rows), is_instruction);
   reader.run();
   reader.leave_out_text(lines);
   return reader.take();

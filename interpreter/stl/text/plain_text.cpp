@@ -10,53 +10,11 @@
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/text/foreign_comments.hpp"
 #include "interpreter/stl/text/places.hpp"
-#include "interpreter/stl/text/plain_page.hpp"
+#include "interpreter/stl/text/wrappings.hpp"
 
 namespace s7200::stl {
 namespace plain {
 namespace {
-
-/// The part of each line between <pre> and </pre>.
-std::vector<Part> between_tags(const std::vector<std::string>& lines) {
-  std::vector<Part> parts;
-  bool inside = false;
-  for (const std::string& line : lines) {
-    Part part{0, inside ? line.size() : 0};
-    if (const std::size_t begin = inside ? std::string_view::npos : find_tag(line, "pre", false);
-        begin != std::string_view::npos) {
-      inside = true;
-      part = {begin + tag_at(std::string_view(line).substr(begin))->bytes, line.size()};
-    }
-    if (const std::size_t end = inside ? find_tag(line, "pre", true) : std::string_view::npos;
-        end != std::string_view::npos) {
-      inside = false;
-      part.to = std::max(end, part.from);
-    }
-    parts.push_back(part);
-  }
-  return parts;
-}
-
-/// Whether the program is inside the parts, and no statement is around them.
-bool holds_the_program(const std::vector<Part>& parts, const std::vector<std::string>& lines) {
-  const auto is_statement = [](std::string_view line) {
-    return looks_like_statement(written_lines(line, {0, line.size()}, true).front().text);
-  };
-  bool inside = false;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::string_view line = lines[i], part = line.substr(parts[i].from, parts[i].to - parts[i].from);
-    inside = inside || is_statement(part);
-    if (parts[i].empty() && is_statement(line)) return false;
-  }
-  return inside;
-}
-
-/// Each line as a whole.
-std::vector<Part> whole(const std::vector<std::string>& lines) {
-  std::vector<Part> parts;
-  for (const std::string& line : lines) parts.push_back({0, line.size()});
-  return parts;
-}
 
 bool is_identity(const std::vector<std::uint32_t>& columns) {
   for (std::size_t i = 0; i < columns.size(); ++i)
@@ -67,7 +25,7 @@ bool is_identity(const std::vector<std::uint32_t>& columns) {
 bool has_such_a_line(std::string_view text) {
   while (!text.empty())
     if (const std::string_view line = take_line(text);
-        may_be_different(line) || may_need_page(line) || may_have_foreign_comment(line))
+        may_be_different(line) || may_need_page(line) || may_have_foreign_comment(line) || may_open_wrapping(line))
       return true;
   return false;
 }
@@ -93,28 +51,26 @@ std::vector<Row> read_lines(const std::vector<std::string>& lines, const std::ve
 }  // namespace
 }  // namespace plain
 
-PlainText::PlainText(std::string_view original) : original_(original) {
+PlainText::PlainText(std::string_view original, const plain::KnowsInstruction& is_instruction) : original_(original) {
   using namespace plain;
   if (!has_such_a_line(original)) return;
   original_lines_ = split_lines(original);
   std::vector<std::string> lines = original_lines_;
   const std::vector<bool> with_comments = rewrite_foreign_comments(lines);
   const bool html = std::ranges::any_of(lines, has_html);
-  const auto opens_pre = [](const std::string& line) { return find_tag(line, "pre", false) != std::string::npos; };
-  std::vector<Part> parts = whole(lines);
-  if (html && std::ranges::any_of(lines, opens_pre)) {
-    std::vector<Part> between = between_tags(lines);
-    if (holds_the_program(between, lines)) {
-      parts = std::move(between);
-      around_ = kHtml;
-    }
+  std::vector<Part> parts;
+  if (auto wrapped = wrapped_program(lines, html, is_instruction)) {
+    parts = std::move(wrapped->parts);
+    around_ = wrapped->change;
+  } else {
+    for (const std::string& line : lines) parts.push_back({0, line.size()});
   }
   for (std::uint32_t i = 0; i < lines.size(); ++i)
     if (parts[i].empty() && !trim(lines[i]).empty()) left_out_.push_back(i + 1);
   std::vector<Row> rows = read_lines(lines, parts, html);
   for (Row& row : rows)
     if (!with_comments.empty() && with_comments[row.original - 1]) row.changes |= kComments;
-  Page page = read_page(std::move(rows), lines);
+  Page page = read_page(std::move(rows), lines, is_instruction);
   around_ |= page.around;
   left_out_.insert(left_out_.end(), page.left_out.begin(), page.left_out.end());
   std::ranges::sort(left_out_);

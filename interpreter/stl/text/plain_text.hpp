@@ -2,9 +2,9 @@
 //
 // Read as what they stand for: no-break and other Unicode blanks, full-width signs, typographic quotes, dashes and signs,
 // HTML tags and entities, cells of tables, headings of networks in other languages; left out: characters that nobody sees,
-// Markdown fences and what is around them, line numbers, bullets, the > of quoted mail, the times and names of a chat, strokes and rules of tables, quotes around each line, text
-// around lines with these, the % before an address. All of this may come together, in any order. Comments and quoted text
-// stay as they are.
+// Markdown fences and what is around them, line numbers, bullets, the > of quoted mail, the times and names of a chat,
+// strokes and rules of tables, quotes around each line, text around lines with these, the % before an address. All of this
+// may come together, in any order. Comments and quoted text stay as they are.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,15 @@
 #include <vector>
 
 #include "interpreter/stl/parser.hpp"
+#include "interpreter/stl/text/plain_page.hpp"
 
 namespace s7200::stl {
 
 class PlainText {
  public:
-  /// The text `original` (UTF-8) must live as long as this object.
-  explicit PlainText(std::string_view original);
+  /// The text `original` (UTF-8) must live as long as this object. Without `is_instruction` less is read: only it can tell
+  /// the title of a network from a statement.
+  explicit PlainText(std::string_view original, const plain::KnowsInstruction& is_instruction = {});
 
   /// The text for the readers. A line of the original may be several lines of it.
   std::string_view text() const { return lines_.empty() ? original_ : text_; }

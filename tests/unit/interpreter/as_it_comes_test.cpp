@@ -41,7 +41,7 @@ TEST(AsItComes, CommentsInBracketsAreRead) {
 }
 
 TEST(AsItComes, CommentsAfterSignsOfOtherLanguagesAreRead) {
-  for (const std::string sign : {";", "--", "#", "'", "!", "%%", "\\\\"})
+  for (const std::string sign : {";", "--", "#", "'", "!", "%%", "\\\\", "%", "REM", "rem"})
     EXPECT_EQ(program(sign + " head\nNETWORK 1\nLD I0.0 " + sign + " start\nA I0.1 " + sign + " stop\n= Q0.0\n"),
               program(kPlain))
         << sign;
@@ -76,6 +76,137 @@ TEST(AsItComes, TitlesOfNetworksAfterASignAreComments) {
     EXPECT_NE(text.find("Start"), std::string::npos) << text;
   }
   EXPECT_EQ(read("NETWORK 1 LD I0.0\n= Q0.0\n").parsed.diagnostics.size(), 1U);
+  EXPECT_EQ(program("Network 1:\nLD I0.0\n= Q0.0\n"), program("NETWORK 1\nLD I0.0\n= Q0.0\n"));
+}
+
+TEST(AsItComes, WholeLinesOfCommentsAreRead) {
+  for (const std::string sign : {"*", "::", "REM", "Rem", "%"})
+    EXPECT_EQ(program(sign + " the motor: I0.0 starts it\nNETWORK 1\nLD I0.0\n" + sign + " the lamp\n= Q0.0\n"),
+              program("// the motor: I0.0 starts it\nNETWORK 1\nLD I0.0\n// the lamp\n= Q0.0\n"))
+        << sign;
+  EXPECT_EQ(program("REM\nLD I0.0\nREM A I0.1\n= Q0.0\n"), program("//\nLD I0.0\n// A I0.1\n= Q0.0\n"));
+  EXPECT_EQ(program("* LD I0.0\n* = Q0.0\n"), program("LD I0.0\n= Q0.0\n"));
+  EXPECT_FALSE(read("* motor\nLD I0.0\n* A I0.1\n= Q0.0\n").parsed.diagnostics.empty());  // it may be a statement
+}
+
+TEST(AsItComes, WordsInBracketsAfterAStatementAreAComment) {
+  for (const auto& [open, close] :
+       {std::pair("(", ")"), std::pair("[", "]"), std::pair("{", "}"), std::pair("<", ">"), std::pair("\uFF08", "\uFF09")}) {
+    const auto within = [&, before = std::string(open), after = std::string(close)](const std::string& words) {
+      return before + words + after;
+    };
+    EXPECT_EQ(
+        program("LD I0.0 " + within("start") + "\nTON T37, 100 " + within("S1, 10 s") + "\n= Motor " + within("K1") + "\n"),
+        program("LD I0.0 // " + within("start") + "\nTON T37, 100 // " + within("S1, 10 s") + "\n= Motor // " +
+                within("K1") + "\n"));
+  }
+  EXPECT_EQ(program("LD I0.0 <!-- start -->\n<!-- lamp -->\n= Q0.0\n"), program("LD I0.0 // start\n// lamp\n= Q0.0\n"));
+  EXPECT_EQ(program("LD I0.0 { start }\n= Q0.0\n"), program("LD I0.0 // start\n= Q0.0\n"));
+  EXPECT_FALSE(read("LD I0.0\n= Motor (Q0.0)\n").parsed.diagnostics.empty());  // it may be the address of the symbol
+}
+
+TEST(AsItComes, WordsAfterADashOrFarFromTheirStatementAreAComment) {
+  for (const std::string sign : {"-", ":", "|", "<-", "->", "=>", "  "})
+    EXPECT_EQ(program("LD I0.0 " + sign + " start\nA I0.1 " + sign + " the stop key\n= Q0.0 " + sign + " lamp\n"),
+              program("LD I0.0 // start\nA I0.1 // the stop key\n= Q0.0 // lamp\n"))
+        << sign;
+  for (const char* text : {"LD I0.0 : A I0.1\n= Q0.0\n", "LD I0.0\nMOVW 5 - VW10\n", "NETWORK 1 : LD I0.0\n= Q0.0\n"})
+    EXPECT_FALSE(read(text).parsed.diagnostics.empty()) << text;
+  for (const auto& [apart, operands] :
+       {std::pair("TON T37   delay\n", "TON T37, delay\n"), std::pair("LD I0.0   NOT\n", "LD I0.0, NOT\n")})
+    EXPECT_EQ(program(apart), program(operands));
+  EXPECT_EQ(program("LD I0.0   start\nFROB\n"), program("LD I0.0, start\nFROB\n"));  // one line is no statement
+}
+
+TEST(AsItComes, ATitleAfterTheNumberOfANetworkIsAComment) {
+  for (const auto& [first, second] :
+       {std::pair("Network 1 Motor start", "Network 2 24V supply"), std::pair("NETWORK 1 MOTOR START", "NETWORK 2 LAMP"),
+        std::pair("Netzwerk 1 Motor Ein/Aus M1", "Netzwerk 2 Lampe"),
+        std::pair("Rede 1 Partida do motor", "Rede 2 Lâmpada de Q0.1"), std::pair("网络1 电机启动", "程序段2 灯"),
+        std::pair("Network No. 1 Pump", "NETWORK2")}) {
+    const std::string text = program(std::string(first) + "\nLD I0.0\n= Q0.0\n" + second + "\nLD I0.1\n= Q0.1\n");
+    EXPECT_EQ(text.find("NETWORK 1 // "), 0U) << text;
+    EXPECT_NE(text.find("NETWORK 2"), std::string::npos) << text;
+  }
+  for (const char* line : {"NETWORK 1 STOP", "NETWORK 1 LD I0.0 start", "Netzwerk 1: LD I0.0", "NETWORK 1 = Motor"})
+    EXPECT_FALSE(read(std::string(line) + "\nLD I0.0\n= Q0.0\n").parsed.diagnostics.empty()) << line;
+}
+
+TEST(AsItComes, HeadingsOfNetworksInBracketsAndRulesAreRead) {
+  const std::string plain = program("NETWORK 1 // Stop\nLD I0.0\n= Q0.0\nNETWORK 2\nLD I0.1\n= Q0.1\n");
+  for (const auto& [first, second] :
+       {std::pair("[Network 1: Stop]", "[Network 2]"), std::pair("[Netzwerk 1] Halt", "[Netzwerk 2]"),
+        std::pair("<Network 1: Stop>", "<< Network 2 >>"), std::pair("(Network 1) Halt", "(Network 2)"),
+        std::pair("=== Network 1 - Stop ===", "=== Network 2 ==="), std::pair("--- Network 1 Stop ---", "--- Network 2 ---"),
+        std::pair("*** NETWORK 1 Stop ***", "*** NETWORK 2 ***"), std::pair("### Rede 1: Halt ###", "## Rede 2"),
+        std::pair("======== Network 1: Stop =========", "==== Network #2 ====")}) {
+    std::string read_so = program(std::string(first) + "\nLD I0.0\n= Q0.0\n" + second + "\nLD I0.1\n= Q0.1\n");
+    if (const std::size_t halt = read_so.find("Halt"); halt != std::string::npos) read_so.replace(halt, 4, "Stop");
+    EXPECT_EQ(read_so, plain) << first;
+  }
+  EXPECT_FALSE(read("[Network 1] LD I0.0\n= Q0.0\n").parsed.diagnostics.empty());
+  EXPECT_EQ(program("LD I0.0\n= Q0.0\n--------\nLD I0.1\n= Q0.1\n"),
+            program("LD I0.0\n= Q0.0\n// --------\nLD I0.1\n= Q0.1\n"));
+}
+
+TEST(AsItComes, AProgramWithinTextOfAnotherLanguageIsRead) {
+  const std::string plain = program("LD I0.0\n= Q0.0\n");
+  for (const char* text : {
+           "program = \"\"\"\nLD I0.0\n= Q0.0\n\"\"\"\n",
+           "\"\"\"The motor.\"\"\"\nimport s7\nSRC = '''\nLD I0.0\n= Q0.0\n'''\nrun(SRC)\n",
+           "<plc>\n<name>demo</name>\n<stl><![CDATA[\nLD I0.0\n= Q0.0\n]]></stl></plc>\n",
+           "const src = `\nLD I0.0\n= Q0.0\n`;\n",
+           "static const char* k = R\"stl(\nLD I0.0\n= Q0.0\n)stl\";\n",
+           "cat > m.awl <<'EOF'\nLD I0.0\n= Q0.0\nEOF\ns7200 check m.awl\n",
+           "plc:\n  program: |\n    LD I0.0\n    = Q0.0\n  cpu: 224\n",
+       }) {
+    const SourceText source = read(text);
+    EXPECT_TRUE(source.parsed.diagnostics.empty()) << text;
+    EXPECT_NE(stl::to_text(source.parsed.source).find(plain), std::string::npos) << text;
+    ASSERT_EQ(source.parsed.notes.size(), 1U) << text;
+    EXPECT_NE(source.parsed.notes[0].find("text of another language around it; left out around the program: line"),
+              std::string::npos)
+        << source.parsed.notes[0];
+  }
+  for (const char* text : {"A = '''\nLD I0.0\n= Q0.0\n'''\nB = '''\nLD I0.1\n= Q0.1\n'''\n",
+                           "LD I0.2\nsrc = '''\nLD I0.0\n= Q0.0\n'''\n"})  // which of the programs?
+    EXPECT_FALSE(read(text).parsed.diagnostics.empty()) << text;
+}
+
+TEST(AsItComes, RowsOfInstructionsInQuotesAreRead) {
+  const std::string plain = program("LD SM0.0\nMOVW 5, VW10\nINCW VW10\n");
+  for (const char* text : {"\"LD\",\"SM0.0\"\n\"MOVW\",\"5\",\"VW10\"\n\"INCW\",\"VW10\"\n",
+                           "'LD';'SM0.0'\n'MOVW';'5, VW10'\n'INCW';'VW10'\n", "LD,SM0.0\nMOVW,5,VW10\nINCW,VW10\n"})
+    EXPECT_EQ(program(text), plain) << text;
+  const std::string headed = program("\"STL\",\"Comment\"\n\"LD I0.0\",\"start\"\n\"= Q0.0\",\"lamp\"\n");
+  EXPECT_NE(headed.find("start"), std::string::npos) << headed;
+  EXPECT_NE(headed.find("lamp"), std::string::npos) << headed;
+}
+
+TEST(AsItComes, ATableOfSymbolsBesideItsProgramIsRead) {
+  const std::string code = "NETWORK 1\nLD Start\n= Motor\n";
+  for (const std::string table :
+       {"Symbol\tAddress\nStart\tI0.0\nMotor\tQ0.0\n", "Start = I0.0\nMotor = Q0.0 // pump\n",
+        "Symboltabelle\nSymbol   Adresse   Kommentar\nStart    E0.0      Taster\nMotor    A0.0\n",
+        "Tabela de símbolos:\nSímbolo;Endereço\nStart;I0.0\nMotor;Q0.0\n", "Start: I0.0\nMotor: Q0.0\n",
+        "| Symbol | Address |\n|---|---|\n| Start | I0.0 |\n| Motor | Q0.0 |\n"})
+    for (const bool below : {true, false}) {
+      const SourceText source = read(below ? code + "\n" + table : table + "\n" + code);
+      EXPECT_TRUE(source.parsed.diagnostics.empty()) << table;
+      EXPECT_EQ(source.parsed.source.symbols.size(), 2U) << table;
+      EXPECT_FALSE(source.parsed.notes.empty()) << table;
+    }
+  EXPECT_EQ(read(code + "FROB I0.0\n").parsed.source.symbols.size(), 0U);  // nothing is called so
+  EXPECT_EQ(read("In network 1 the motor is started.\n" + code).parsed.source.symbols.size(), 0U);
+}
+
+TEST(AsItComes, ATitleWithoutItsBlockIsNamed) {
+  const std::string block = "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNetwork 1\nLD I0.0\n= Q0.0\nEND_ORGANIZATION_BLOCK\n";
+  for (const std::string& text : {block + "TITLE=lost\n", "TITLE=lost\nTITLE=kept\n" + block}) {
+    const SourceText source = read(text);
+    ASSERT_EQ(source.parsed.notes.size(), 1U) << text;
+    EXPECT_EQ(source.parsed.notes[0], "page.txt: TITLE=lost is left out: the head of no block follows it");
+  }
 }
 
 TEST(AsItComes, ATitleBeforeTheHeadOfItsBlockIsItsTitle) {

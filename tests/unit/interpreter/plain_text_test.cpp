@@ -539,10 +539,14 @@ TEST(Hints, BothMistakesOfAnAttachmentAreNamed) {
   EXPECT_NE(said.find("interrupt routine 1 is missing"), std::string::npos) << said;
 }
 
-TEST(Hints, ABlankInAnAddressIsNamed) {
-  EXPECT_EQ(only_error("LD I 0.0\n= Q0.0\n"), "there is a blank in this address: write I0.0");
-  EXPECT_EQ(only_error("LD I0 .0\n= Q0.0\n"), "there is a blank in this address: write I0.0");
-  EXPECT_EQ(only_error("LD I0.0\nMOVW VW 0, VW2\n"), "there is a blank in this address: write VW0");
+TEST(Hints, ABlankInAnAddressIsReadIfOnlyThatIsAnInstruction) {
+  for (const char* text : {"LD I 0.0\n= Q0.0\n", "LD I0 .0\n= Q 0.0\n", "LD I 0. 0\n=  Q0.  0\n"}) {
+    EXPECT_EQ(program(text), program("LD I0.0\n= Q0.0\n")) << text;
+    EXPECT_EQ(note(text), "page.txt: read as plain text: blanks within addresses; the first in line 1");
+  }
+  EXPECT_EQ(program("LD I0.0\nO M 0.1\nMOVW VW 0, AC 1\nTON T 37, 100\n= Q 0.0\n"),
+            program("LD I0.0\nO M0.1\nMOVW VW0, AC1\nTON T37, 100\n= Q0.0\n"));
+  EXPECT_EQ(only_error("A I 0.0\nO M 0.1\n= Q 4.0\n").substr(0, 26), "this is STL of STEP 7 for ");
 }
 
 TEST(Hints, ConstantsAndComparisonsOfOtherLanguagesGetThoseOfThisOne) {

@@ -1,0 +1,125 @@
+#include "interpreter/program/loading/table_in_program.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <vector>
+
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/stl/tables/symbol_table.hpp"
+
+namespace s7200 {
+namespace {
+
+using IsInstruction = std::function<bool(std::string_view mnemonic, std::size_t operands)>;
+
+enum class LineKind : std::uint8_t { Blank, Statement, Head, Row, Other };
+
+struct ReadLine {
+  LineKind kind = LineKind::Other;
+  std::string name{};  ///< of the symbol in a row, in capitals
+};
+
+/// `Symbol table:`, `Symboltabelle`, `Tabela de símbolos`, `符号表`: what may stand above a table.
+bool is_title_of_table(std::string_view line) {
+  constexpr std::size_t kMostWords = 5;
+  constexpr std::array<std::string_view, 7> kWords{"SYMBOL", "SIMBOL", "MBOLO", "VARIABLE", "MNEMON", "符号", "變數"};
+  const std::string text = stl::upper_case(line);
+  return stl::split_words(text).size() <= kMostWords &&
+         std::ranges::any_of(kWords, [&](std::string_view word) { return text.find(word) != text.npos; });
+}
+
+/// The words of a line without its comment, in capitals; a comma is a blank.
+std::vector<std::string> words_of_line(std::string_view line) {
+  std::string code = stl::upper_case(line.substr(0, line.find("//")));
+  std::ranges::replace(code, ',', ' ');
+  return stl::split_words(code);
+}
+
+class TableFinder {
+ public:
+  TableFinder(std::string_view text, const IsInstruction& is_instruction)
+      : lines_(stl::split_lines(text)), is_instruction_(is_instruction), in_table_(lines_.size(), false) {
+    for (const std::string& line : lines_) read_.push_back(read(line));
+  }
+
+  std::optional<ProgramWithTable> run() {
+    for (std::size_t i = 0; i < read_.size(); ++i)
+      if (read_[i].kind == LineKind::Head || read_[i].kind == LineKind::Row) i = take_table(i);
+    const bool any = std::ranges::find(in_table_, true) != in_table_.end();
+    if (!any || std::ranges::find(read_, LineKind::Statement, &ReadLine::kind) == read_.end()) return {};
+    ProgramWithTable result;
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      (in_table_[i] ? result.table : result.program) += lines_[i];
+      result.table += '\n';
+      result.program += '\n';
+    }
+    return result;
+  }
+
+ private:
+  ReadLine read(std::string_view line) const {
+    constexpr std::size_t kLongestRow = 300;
+    const std::vector<std::string> words = words_of_line(line);
+    if (words.empty() || line.find_first_not_of("-=+|: \t") == line.npos) return {LineKind::Blank};
+    if (words[0] == "NETWORK" || is_instruction_(words[0], words.size() - 1)) return {LineKind::Statement};
+    if (line.size() > kLongestRow) return {};
+    if (stl::is_head_of_symbols(line)) return {LineKind::Head};
+    if (std::ranges::none_of(line, stl::is_digit)) return {};
+    const stl::ParseResult symbol = stl::read_symbol_table(line, {});
+    if (symbol.source.symbols.size() != 1 || !symbol.diagnostics.empty()) return {};
+    const stl::Symbol& row = symbol.source.symbols.front();
+    const bool is_address = row.value && !std::holds_alternative<stl::Integer>(*row.value);
+    if (!is_address && line.find('=') == line.npos) return {};  // `In network 1`
+    return {LineKind::Row, stl::upper_case(row.name)};
+  }
+
+  /// Takes the table that begins in a line if it is one. Returns its last line.
+  std::size_t take_table(std::size_t first) {
+    std::size_t last = first;
+    std::set<std::string> names;
+    for (std::size_t i = first; i < read_.size(); ++i) {
+      if (read_[i].kind == LineKind::Row)
+        names.insert(read_[i].name);
+      else if (read_[i].kind != LineKind::Blank && (read_[i].kind != LineKind::Head || i > first))
+        break;
+      if (read_[i].kind != LineKind::Blank) last = i;
+    }
+    const bool headed = read_[first].kind == LineKind::Head;
+    if (names.empty() || (!headed && 2 * count_used(names) < names.size())) return last;
+    std::fill(in_table_.begin() + static_cast<std::ptrdiff_t>(first),
+              in_table_.begin() + static_cast<std::ptrdiff_t>(last) + 1, true);
+    std::size_t above = first;
+    while (above > 0 && read_[above - 1].kind == LineKind::Blank) --above;
+    if (above > 0 && read_[above - 1].kind == LineKind::Other && is_title_of_table(lines_[above - 1]))
+      in_table_[above - 1] = true;
+    return last;
+  }
+
+  /// The number of names that statements have as words.
+  std::size_t count_used(const std::set<std::string>& names) {
+    if (words_.empty())
+      for (std::size_t i = 0; i < lines_.size(); ++i)
+        if (read_[i].kind == LineKind::Statement)
+          for (std::string& word : words_of_line(lines_[i])) {
+            std::erase(word, '"');
+            if (word != "NETWORK") words_.insert(std::move(word));
+          }
+    return static_cast<std::size_t>(
+        std::ranges::count_if(names, [this](const std::string& name) { return words_.contains(name); }));
+  }
+
+  std::vector<std::string> lines_;
+  const IsInstruction& is_instruction_;
+  std::vector<ReadLine> read_{};
+  std::vector<bool> in_table_;
+  std::set<std::string> words_{};  // of statements
+};
+
+}  // namespace
+
+std::optional<ProgramWithTable> table_in_program(std::string_view text, const IsInstruction& is_instruction) {
+  return TableFinder(text, is_instruction).run();
+}
+
+}  // namespace s7200
