@@ -14,6 +14,10 @@ inline bool fits(const serial::Answer& answer) {
   return answer.verdict == serial::Verdict::Right || answer.verdict == serial::Verdict::Exception;
 }
 
+/// Whether bytes have the form of a request of Modbus RTU to read or write two items from address 0, whatever their CRC:
+/// `01 03 00 00 00 02 C4 0C`. By chance they have that of a message of Modbus TCP, too.
+bool may_be_rtu_request_from_0(std::span<const std::uint8_t> bytes);
+
 std::unique_ptr<FrameReader> modbus_reader(const ChosenWords& chosen);
 std::unique_ptr<FrameReader> ppi_reader(const ChosenWords& chosen);
 std::unique_ptr<FrameReader> freeport_pc_reader(const ChosenWords& chosen);

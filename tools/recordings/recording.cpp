@@ -50,6 +50,9 @@ constexpr std::array kForms{
                   looks_like_esphome_modbus, read_esphome_modbus},
     RecordingForm{"eModbus", "what eModbus logs, with its dumps", true, looks_like_emodbus, read_emodbus},
     RecordingForm{"Tasmota", "a log of Tasmota with SerialSend5 and SerialReceived", true, looks_like_tasmota, read_tasmota},
+    RecordingForm{"YAML",
+                  "YAML with a map for each frame or exchange, in block or flow style: - {dir: tx, data: [0x01, 0x03]}",
+                  true, looks_like_yaml_records, read_yaml_records},
     RecordingForm{"JSON",
                   "JSON, an object with bytes in each line: time, direction, data in hex, numbers or base64; packets of "
                   "tshark -T json",

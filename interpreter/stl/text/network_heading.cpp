@@ -55,12 +55,12 @@ std::string_view without_rules_at_end(std::string_view text) {
   return text.substr(0, text.find_last_not_of("=-*#~_+])}> \t") + 1);
 }
 
-constexpr std::array<std::string_view, 6> kDashes{":", "：", ".", "-", "–", "—"};
+constexpr std::array<std::string_view, 6> kTitleDashes{":", "：", ".", "-", "–", "—"};
 
 /// The title without the dash in front of it.
 std::string_view without_dash(std::string_view title) {
-  const auto dash = std::ranges::find_if(kDashes, [title](std::string_view each) { return title.starts_with(each); });
-  return dash == kDashes.end() ? title : trim(title.substr(dash->size()));
+  const auto dash = std::ranges::find_if(kTitleDashes, [title](std::string_view each) { return title.starts_with(each); });
+  return dash == kTitleDashes.end() ? title : trim(title.substr(dash->size()));
 }
 
 bool is_any_of_number(char c) { return c == '.' || c == '-'; }

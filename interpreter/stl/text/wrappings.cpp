@@ -16,7 +16,7 @@ struct Opening {
   Change change = kWrapping;
 };
 
-constexpr std::array<std::string_view, 2> kQuotes{R"(""")", "'''"};
+constexpr std::array<std::string_view, 2> kTripleQuotes{R"(""")", "'''"};
 constexpr std::string_view kCdata = "<![CDATA[";
 
 /// `R"stl(` of C++, which `)stl"` ends.
@@ -53,7 +53,7 @@ Opening opening_in(std::string_view line, bool html) {
   if (const std::size_t tag = html ? find_tag(line, "pre", false) : line.npos; tag != line.npos)
     return {.end = tag + tag_at(line.substr(tag))->bytes, .close = "</pre>", .change = kHtml};
   if (const std::size_t mark = line.find(kCdata); mark != line.npos) return {.end = mark + kCdata.size(), .close = "]]>"};
-  for (const std::string_view quotes : kQuotes)
+  for (const std::string_view quotes : kTripleQuotes)
     if (const std::size_t mark = line.find(quotes); mark != line.npos)
       return {.end = mark + quotes.size(), .close = std::string(quotes)};
   const std::string_view code = trim_end(line);

@@ -7,6 +7,7 @@
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tools/recordings/forms.hpp"
+#include "tools/recordings/readers.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -97,7 +98,9 @@ bool is_mostly_modbus_tcp(Rows rows) {
     std::size_t count = 1;
     const Reading* const reading = first.doubt ? reading_of(first) : nullptr;
     const bool is_unknown = first.doubt && first.bytes.empty();
-    if (reading != nullptr) {
+    if (!first.doubt && may_be_rtu_request_from_0(first.bytes)) {
+      // says nothing of the others
+    } else if (reading != nullptr) {
       over_tcp += !modbus::crc_ok(reading->bytes);
     } else if (!is_unknown && is_message(first.bytes)) {
       over_tcp += !modbus::crc_ok(first.bytes);  // by chance a message may have a CRC

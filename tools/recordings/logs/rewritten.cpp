@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "interpreter/base/text/numbers.hpp"
@@ -309,15 +310,87 @@ std::string rows_of_minimalmodbus(std::string_view text) {
   return plain;
 }
 
+// --- AT commands of radio and network modules ---
+
+/// `AT+SEND=1,8,010300000002C40B`, `+RCV=1,9,010304000A0014DA3E,-40,9`: what stands after the name of the command.
+struct AtCommand {
+  std::string_view name{}, parameters{};
+  bool is_command = false;  ///< what the program has told the module
+};
+std::optional<AtCommand> at_command_in(std::string_view line) {
+  for (std::size_t plus = line.find('+'); plus != line.npos; plus = line.find('+', plus + 1)) {
+    const bool command = plus >= 2 && stl::upper_case(line.substr(plus - 2, 2)) == "AT";
+    const std::size_t begin = command ? plus - 2 : plus;
+    if (begin > 0 && (is_word_sign(line[begin - 1]) || is_any_of(line[begin - 1], ".,"))) continue;
+    const auto end = static_cast<std::size_t>(
+        std::find_if_not(line.begin() + static_cast<std::ptrdiff_t>(plus) + 1, line.end(), is_word_sign) - line.begin());
+    if (end == plus + 1 || end >= line.size() || !is_any_of(line[end], "=:,") || !stl::is_letter(line[plus + 1])) continue;
+    return AtCommand{line.substr(plus + 1, end - plus - 1), stl::trim(line.substr(end + 1)), command};
+  }
+  return {};
+}
+
+/// The bytes among the parameters: all of them, those after their number, or the only long parameter.
+std::optional<Bytes> bytes_of_parameters(std::string_view parameters) {
+  constexpr std::size_t kFewest = 4;
+  std::string text(parameters);
+  std::ranges::replace_if(
+      text, [](char c) { return c == ',' || c == ':' || c == '"'; }, ' ');
+  const std::vector<std::string> words = stl::split_words(text);
+  const auto bytes_from = [&](std::size_t first, std::size_t last) {
+    std::string run;
+    for (std::size_t i = first; i < last; ++i) run.append(words[i]) += ' ';
+    return bytes_of_text(run).value_or(Bytes());
+  };
+  const auto is_pair = [](const std::string& word) { return word.size() == 2 && bytes_of_text(word).has_value(); };
+  if (words.size() >= kFewest && std::ranges::all_of(words, is_pair)) return bytes_from(0, words.size());
+  for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+    const auto count = parse_decimal<std::size_t>(words[i]);
+    if (!count || *count < kFewest) continue;
+    for (std::size_t last = i + 2; last <= words.size(); ++last)
+      if (Bytes bytes = bytes_from(i + 1, last); bytes.size() == *count) return bytes;
+  }
+  if (Bytes all = bytes_from(0, words.size()); all.size() >= kFewest && parameters.find(',') == parameters.npos) return all;
+  std::optional<Bytes> found;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (Bytes bytes = bytes_from(i, i + 1); bytes.size() >= kFewest && std::exchange(found, std::move(bytes))) return {};
+  return found;
+}
+
+bool is_row_of_at_commands(std::string_view line) {
+  const auto command = at_command_in(line);
+  return command && command->is_command;
+}
+
+std::string rows_of_at_commands(std::string_view text) {
+  std::string plain;
+  for (const std::string_view line : Lines(text)) {
+    const auto command = at_command_in(line);
+    const auto bytes = command ? bytes_of_parameters(command->parameters) : std::nullopt;
+    if (bytes) {
+      const auto time = leading_time(line);
+      const Direction named = direction_of(command->name);
+      const bool sent = named == Direction::Unknown ? command->is_command : named == Direction::Request;
+      plain.append(line.substr(0, time ? time->length : 0)).append(sent ? " TX" : " RX").append(in_hex(*bytes));
+    } else {  // it is not known which of its parameters are bytes
+      plain.append(command ? "AT command" : line);
+    }
+    plain += '\n';
+  }
+  return plain;
+}
+
 /// A kind of log, recognised by one of its lines.
 struct KindOfLog {
   bool (*has)(std::string_view line);
   std::string (*in_plain)(std::string_view text);
 };
 constexpr std::array kKindsOfLogs{KindOfLog{is_row_of_netty, without_frames_of_netty},
-                                  KindOfLog{is_of_slsnif, rows_of_slsnif}, KindOfLog{is_row_of_carets, without_carets},
+                                  KindOfLog{is_of_slsnif, rows_of_slsnif},
+                                  KindOfLog{is_row_of_carets, without_carets},
                                   KindOfLog{has_row_of_sql, rows_of_sql},
-                                  KindOfLog{is_row_of_minimalmodbus, rows_of_minimalmodbus}};
+                                  KindOfLog{is_row_of_minimalmodbus, rows_of_minimalmodbus},
+                                  KindOfLog{is_row_of_at_commands, rows_of_at_commands}};
 
 }  // namespace
 

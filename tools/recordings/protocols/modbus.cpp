@@ -144,7 +144,9 @@ bool has_crc_turned_round(Data bytes) {
 std::string what_it_is_instead(const RecordedFrame& frame, const RecordedFrame* open) {
   const Data bytes(frame.bytes);
   if (is_ppi(bytes)) return "a frame of PPI, not of Modbus RTU";
-  if (is_modbus_tcp(bytes)) return "a message of Modbus TCP, not of Modbus RTU: it has a head and no CRC";
+  if (has_crc_turned_round(bytes)) return "its CRC has the high byte first: Modbus RTU sends the low byte first";
+  if (is_modbus_tcp(bytes) && !may_be_rtu_request_from_0(bytes))
+    return "a message of Modbus TCP, not of Modbus RTU: it has a head and no CRC";
   const Bytes completed = with_crc(bytes);
   const bool may_be_answer = open != nullptr && frame.direction != Direction::Request && open->bytes != frame.bytes;
   if (may_be_answer && fits(modbus::check_answer(open->bytes, completed))) return "an answer without its CRC";
@@ -154,7 +156,6 @@ std::string what_it_is_instead(const RecordedFrame& frame, const RecordedFrame* 
   if (frame.direction != Direction::Answer && bytes.size() >= 2 && modbus::find_function(bytes[1]) != nullptr &&
       has_length_of_request(completed) && modbus::extent_of_request(completed) == modbus::Extent::Whole)
     return "a request without its CRC";
-  if (has_crc_turned_round(bytes)) return "its CRC has the high byte first: Modbus RTU sends the low byte first";
   return {};
 }
 
@@ -305,6 +306,15 @@ class ModbusReader final : public PlainReader<read_modbus, first_modbus_message>
 };
 
 }  // namespace
+
+bool may_be_rtu_request_from_0(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kWhole = 8, kFirst = 2, kCount = 4;
+  if (bytes.size() != kWhole || load16(&bytes[kFirst]) != 0 || load16(&bytes[kCount]) != 2) return false;
+  const auto function = static_cast<modbus::Function>(bytes[1]);
+  return std::ranges::any_of(modbus::areas(), [function](const modbus::AreaRow& area) {
+    return area.read == function || area.write_one == function || area.write_many == function;
+  });
+}
 
 std::unique_ptr<FrameReader> modbus_reader(const ChosenWords&) { return std::make_unique<ModbusReader>(); }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 #include "interpreter/base/result.hpp"
 #include "interpreter/base/text/numbers.hpp"
@@ -15,6 +16,7 @@
 #include "tools/recordings/rows/fields.hpp"
 #include "tools/recordings/rows/notation.hpp"
 #include "tools/recordings/rows/table_rows.hpp"
+#include "tools/recordings/scan.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -31,6 +33,7 @@ struct Columns {
   std::optional<std::size_t> sent{}, received{};  ///< instead of direction and data
   std::size_t byte_columns = 0;  ///< from `data` on, each with a byte of the frame; 0: the bytes stand in one
   bool parts = false;            ///< each of them has a part of the frame: station, function, data, CRC
+  bool headless = false;         ///< the first row names nothing: it has a character as the others do
   bool of_exchanges = false;     ///< a row has a request and its answer: `Time,Request,Response`
   std::vector<std::size_t> errors{};
   Time unit = kSecond;
@@ -227,6 +230,50 @@ void find_by_cells(const TableRows& rows, Columns& columns) {
   if (found != cells.end()) columns.direction = static_cast<std::size_t>(found - cells.begin());
 }
 
+/// Finds the columns of rows that each have a time, a direction and one character, in any order, below no names:
+/// `TX,0.001040,03`. Nothing if a column may be something else as well.
+std::optional<Columns> columns_of_characters(TableRows rows) {
+  constexpr std::size_t kRows = 50, kFewestRows = 4, kFewestCells = 3, kMostCells = 8;
+  struct Column {
+    bool times = true, directions = true, counts = true;  ///< counts: each cell is one more than that above
+    std::optional<std::uint32_t> last{};
+    NotationFinder notation{};
+  };
+  Columns found{.headless = true};
+  std::vector<Column> columns;
+  std::vector<std::string> fields;
+  std::size_t count = 0;
+  for (auto row = rows.next(); row && count < kRows; row = rows.next()) {
+    if (stl::trim(row->text).empty()) continue;
+    if (count++ == 0) found.separator = separator_of(row->text);
+    if (found.separator == 0) return {};
+    take_fields(row->text, found.separator, fields);
+    if (columns.empty()) columns.resize(fields.size());
+    if (fields.size() != columns.size() || fields.size() < kFewestCells || fields.size() > kMostCells) return {};
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const std::string_view cell = stl::trim(fields[i]);
+      columns[i].times = columns[i].times && time_in_cell(cell);
+      columns[i].directions = columns[i].directions && direction_in_cell(cell) != Direction::Unknown;
+      const auto number = parse_decimal<std::uint32_t>(cell);
+      columns[i].counts = columns[i].counts && number && (count == 1 || *number == *columns[i].last + 1);
+      columns[i].last = number;
+      columns[i].notation.take(cell, row->number);
+    }
+  }
+  if (count < kFewestRows) return {};
+  std::string why;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Notation* const notation = columns[i].notation.found(why);
+    const bool characters = notation != nullptr && columns[i].notation.are_characters(*notation);
+    std::optional<std::size_t>& column = columns[i].times        ? found.time
+                                         : columns[i].directions ? found.direction
+                                                                 : found.data;
+    if (columns[i].counts || (!columns[i].times && !columns[i].directions && !characters)) continue;
+    if (std::exchange(column, i)) return {};
+  }
+  return found.time && found.direction && found.data ? std::optional(found) : std::nullopt;
+}
+
 /// The next row that is not blank; nothing at the end, or where many are blank.
 std::optional<TableRow> next_filled(TableRows& rows) {
   constexpr std::size_t kMostBlank = 100;
@@ -239,6 +286,7 @@ std::optional<TableRow> next_filled(TableRows& rows) {
 
 /// The columns of a table, whose names are taken off it.
 Columns take_columns(TableRows& rows) {
+  if (auto columns = columns_of_characters(rows)) return *columns;
   const auto names = next_filled(rows);
   Columns columns = columns_of(names ? names->text : "");
   find_by_cells(rows, columns);

@@ -659,6 +659,30 @@ bool is_assigned(Words before, Words run) {
   return !names_bytes(name);
 }
 
+/// Words before numbers that are values of something: `Values: 10 20`, `registers = 10, 20`
+constexpr std::array<std::string_view, 16> kNamesOfValues{"VALUE",  "VALUES",  "REGISTER", "REGISTERS", "RESULT", "RESULTS",
+                                                          "COILS",  "INPUTS",  "WERT",     "WERTE",     "VALOR",  "VALORES",
+                                                          "VALEUR", "VALEURS", "VALORI",   "READINGS"};
+
+/// The word that says that numbers after it are values; null if there is none.
+const Word* name_of_values(Words before) {
+  constexpr std::string_view kAround = "[](){}:=\"'";
+  const auto bare = [&](std::string_view text) {
+    const std::size_t begin = std::min(text.find_first_not_of(kAround), text.size());
+    return stl::upper_case(text.substr(begin, text.find_last_not_of(kAround) + 1 - begin));
+  };
+  while (!before.empty() && bare(before.back().text).empty()) before = before.first(before.size() - 1);
+  if (before.empty() || std::ranges::find(kNamesOfValues, bare(before.back().text)) == kNamesOfValues.end()) return nullptr;
+  return std::ranges::none_of(before, names_bytes) ? &before.back() : nullptr;
+}
+
+/// Whether numbers after such a name are fewer than a frame has.
+bool are_values(Words before, Words run) {
+  constexpr std::size_t kShortestFrame = 4;
+  const std::size_t bytes = run.back().first_byte + run.back().bytes - run.front().first_byte;
+  return bytes < kShortestFrame && name_of_values(before) != nullptr;
+}
+
 /// Whether the last word is the name after an arrow: `CPU -> PC`
 bool ends_with_name_after_arrow(Words words) {
   constexpr std::string_view kArrow = "-=<>";
@@ -701,6 +725,7 @@ const Word* what_is_doubtful(Words before, Words run, Words after) {
       return &*std::find_if(other, before.end(), [](const Word& word) { return word.bytes == 0; });
   }
   if (is_assigned(before, run) || is_short_after_words(before, run)) return &before.back();
+  if (const Word* const name = name_of_values(before)) return name;
   if (const Word* const no_byte = what_is_no_byte(run)) return no_byte;
   if (after.empty() || after.front().number == Word::Number::Yes) return nullptr;
   if (has_both_cases(run)) return &run.back();
@@ -1011,6 +1036,8 @@ constexpr std::array kWrittenUnits{WrittenUnit{"S", kSecond},
                                    WrittenUnit{"\xB5S", kMicrosecond},  // in Latin-1
                                    WrittenUnit{"NS", 1},
                                    WrittenUnit{"MILLISECONDS", kMillisecond},
+                                   WrittenUnit{"MILLIS", kMillisecond},
+                                   WrittenUnit{"MICROS", kMicrosecond},
                                    WrittenUnit{"MICROSECONDS", kMicrosecond},
                                    WrittenUnit{"NANOSECONDS", 1}};
 
@@ -1205,7 +1232,8 @@ std::optional<BytesInLine> BytesOfLines::among_words(std::string_view line) {
   const auto run = last_run(words_);
   if (!run) return bytes_in_comment(line);
   const Words after = Words(words_).subspan(run->before.size() + run->words.size());
-  const bool is_sentence = is_of_a_sentence(run->before, run->words, after) || is_value(run->before, run->words);
+  const bool is_sentence = is_of_a_sentence(run->before, run->words, after) || is_value(run->before, run->words) ||
+                           are_values(run->before, run->words);
   if (is_sentence && !has_pairs(run->before)) return {};
   BytesInLine found{.begin = run->words.front().begin, .has_characters = end_of_row < line.size()};
   const Word* const doubtful = is_sentence ? &run->before.back() : what_is_doubtful(run->before, run->words, after);

@@ -24,12 +24,21 @@ struct ByteMark {
   std::size_t digits;
 };
 constexpr std::array kByteMarks{
-    ByteMark{"", "h", 16, 2},      ByteMark{"", "H", 16, 2},    ByteMark{"$", "", 16, 2},     ByteMark{"&H", "", 16, 2},
-    ByteMark{"16#", "", 16, 2},    ByteMark{"#", "", 16, 2},    ByteMark{"B#16#", "", 16, 2}, ByteMark{"b#16#", "", 16, 2},
-    ByteMark{"\\x", "", 16, 2},    ByteMark{"%", "", 16, 2},    ByteMark{"x", "", 16, 2},     ByteMark{"0b", "", 2, 8},
-    ByteMark{"2#", "", 2, 8},      ByteMark{"", "", 2, 8},      ByteMark{"'0x", "'", 16, 2},  ByteMark{"'", "'", 16, 2},
-    ByteMark{"\"0x", "\"", 16, 2}, ByteMark{"\"", "\"", 16, 2},
+    ByteMark{"", "h", 16, 2},    ByteMark{"", "H", 16, 2},     ByteMark{"0", "h", 16, 2},     ByteMark{"0", "H", 16, 2},
+    ByteMark{"$", "", 16, 2},    ByteMark{"&H", "", 16, 2},    ByteMark{"&h", "", 16, 2},     ByteMark{"16#", "", 16, 2},
+    ByteMark{"#", "", 16, 2},    ByteMark{"B#16#", "", 16, 2}, ByteMark{"b#16#", "", 16, 2},  ByteMark{"\\x", "", 16, 2},
+    ByteMark{"%", "", 16, 2},    ByteMark{"x", "", 16, 2},     ByteMark{"0b", "", 2, 8},      ByteMark{"2#", "", 2, 8},
+    ByteMark{"H'", "'", 16, 2},  ByteMark{"h'", "'", 16, 2},   ByteMark{"H'", "", 16, 2},     ByteMark{"h'", "", 16, 2},
+    ByteMark{"X'", "'", 16, 2},  ByteMark{"x'", "'", 16, 2},   ByteMark{"8'h", "", 16, 2},    ByteMark{"8'H", "", 16, 2},
+    ByteMark{"'h", "", 16, 2},   ByteMark{"H#", "", 16, 2},    ByteMark{"h#", "", 16, 2},     ByteMark{"B'", "'", 2, 8},
+    ByteMark{"8'b", "", 2, 8},   ByteMark{"0x", "U", 16, 2},   ByteMark{"0x", "u", 16, 2},    ByteMark{"", "", 2, 8},
+    ByteMark{"'0x", "'", 16, 2}, ByteMark{"'", "'", 16, 2},    ByteMark{"\"0x", "\"", 16, 2}, ByteMark{"\"", "\"", 16, 2},
 };
+
+/// Marks that a mark may stand beside: an assembler writes 0C4h next to 01h.
+bool may_stand_beside(const ByteMark& mark, const ByteMark& other) {
+  return mark.after == other.after && (mark.after == "h" || mark.after == "H") && mark.digits == other.digits;
+}
 
 struct PlainSign {
   std::string_view sign, plain;
@@ -52,6 +61,15 @@ std::optional<std::uint8_t> byte_of(std::string_view word, const ByteMark& mark)
   return error == std::errc{} && end == digits.data() + digits.size() ? std::optional(byte) : std::nullopt;
 }
 
+/// The byte of a word in that notation, or in one that stands beside it.
+std::optional<std::uint8_t> byte_in_marks(std::string_view word, const ByteMark& mark) {
+  if (const auto byte = byte_of(word, mark)) return byte;
+  for (const ByteMark& other : kByteMarks)
+    if (may_stand_beside(mark, other))
+      if (const auto byte = byte_of(word, other)) return byte;
+  return {};
+}
+
 bool is_between_words(char c) { return std::string_view(" \t,;[]()<>").find(c) != std::string_view::npos; }
 
 /// The signs that begin an escape without a blank before it: `\x0B\x03` and `%0B%03` are two words each.
@@ -72,7 +90,7 @@ void for_each_word(std::string_view line, See see) {
 std::size_t longest_run(std::string_view line, const ByteMark& mark) {
   std::size_t run = 0, longest = 0;
   for_each_word(line, [&](std::string_view word) {
-    run = byte_of(word, mark) ? run + 1 : 0;
+    run = byte_in_marks(word, mark) ? run + 1 : 0;
     longest = std::max(longest, run);
   });
   return longest;
@@ -107,7 +125,7 @@ std::string with_plain_bytes(std::string_view text, const ByteMark& mark) {
   const auto copy_to = [&](const char* to) { plain.append(copied, to), copied = to; };
   for (const std::string_view line : Lines(text))
     for_each_word(line, [&](std::string_view word) {
-      const auto byte = byte_of(word, mark);
+      const auto byte = byte_in_marks(word, mark);
       if (!byte) return;
       copy_to(word.data());
       plain += fmt::format("{}{:02X}", !mark.before.empty() && begins_escape(mark.before.front()) ? " " : "", *byte);
@@ -213,6 +231,15 @@ std::optional<std::string> without_decimal(std::string_view text) {
 }
 
 }  // namespace
+
+std::optional<std::uint8_t> marked_byte(std::string_view word) {
+  for (const ByteMark& mark : kByteMarks) {
+    const bool is_sure = !mark.before.empty() || mark.after == "h" || mark.after == "H";
+    if (!is_sure || mark.base != 16 || is_any_of(mark.before.empty() ? ' ' : mark.before.front(), "'\"%#x0")) continue;
+    if (const auto byte = byte_of(word, mark)) return byte;
+  }
+  return {};
+}
 
 std::optional<std::string> in_plain_hex(std::string_view text) {
   const bool has_signs = std::ranges::any_of(

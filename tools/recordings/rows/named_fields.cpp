@@ -48,6 +48,10 @@ constexpr std::array kNames{
     Name{"packet", Holds::Data},
     Name{"pdu", Holds::Data},
     Name{"adu", Holds::Data},
+    Name{"station", Holds::Nothing},
+    Name{"unit", Holds::Nothing},
+    Name{"address", Holds::Nothing},
+    Name{"function", Holds::Nothing},
     Name{"length", Holds::Nothing},  // what follows says how many, or which: `data_length`, `frame.number`
     Name{"len", Holds::Nothing},
     Name{"size", Holds::Nothing},

@@ -10,6 +10,7 @@
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/rows/fields.hpp"
+#include "tools/recordings/rows/marked_bytes.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -79,6 +80,17 @@ std::optional<Bytes> numbers(std::string_view cell, int base) {
   return bytes.empty() ? std::nullopt : std::optional(std::move(bytes));
 }
 
+/// Bytes with a mark each: `02h 03h`, `$02`, `H'02'`.
+std::optional<Bytes> marked(std::string_view cell) {
+  Bytes bytes;
+  for (const std::string& word : stl::split_words(cell)) {
+    const auto byte = marked_byte(word);
+    if (!byte) return {};
+    bytes.push_back(*byte);
+  }
+  return bytes.empty() ? std::nullopt : std::optional(std::move(bytes));
+}
+
 constexpr Notation kHex{"hex", bytes_of_text};
 constexpr Notation kDecimals{"decimal numbers", [](std::string_view cell) { return numbers(cell, 10); }};
 constexpr Notation kShortHex{"hex numbers", [](std::string_view cell) { return numbers(cell, 16); }};
@@ -88,6 +100,7 @@ constexpr std::array kNotations{
     Notation{"characters with hex", with_hex},
     Notation{"binary", binary},
     kHex,
+    Notation{"hex with marks", marked},
     Notation{"decimal", decimal},
     Notation{"octal", octal},
     Notation{"characters", bracketed},
