@@ -18,8 +18,8 @@
 #include "serial_sim/westinghouse/messages/hppc_message.hpp"
 #include "tools/master/protocol.hpp"
 #include "tools/recordings/decoded.hpp"
+#include "tools/recordings/fields/fields.hpp"
 #include "tools/recordings/playback.hpp"
-#include "tools/recordings/rows/fields.hpp"
 
 namespace s7200::tools::recording_test {
 namespace {

@@ -12,7 +12,7 @@
 #include "interpreter/base/text/text.hpp"
 #include "serial_sim/line/line.hpp"
 #include "serial_sim/line/uart.hpp"
-#include "tools/recordings/rows/fields.hpp"
+#include "tools/recordings/fields/fields.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -7,10 +7,10 @@
 #include "interpreter/base/result.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "tools/recordings/fields/fields.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/levels/levels.hpp"
 #include "tools/recordings/levels/samplerate.hpp"
-#include "tools/recordings/rows/fields.hpp"
 #include "tools/recordings/rows/lines.hpp"
 #include "tools/recordings/rows/table_rows.hpp"
 

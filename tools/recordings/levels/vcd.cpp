@@ -9,9 +9,9 @@
 #include "interpreter/base/result.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "tools/recordings/fields/fields.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/levels/levels.hpp"
-#include "tools/recordings/rows/fields.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "interpreter/base/result.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "tools/recordings/fields/fields.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/left_out.hpp"
-#include "tools/recordings/rows/fields.hpp"
 #include "tools/recordings/rows/lines.hpp"
 #include "tools/recordings/rows/notation.hpp"
 

@@ -8,9 +8,9 @@
 #include <algorithm>
 
 #include "interpreter/base/text/text.hpp"
+#include "tools/recordings/fields/fields.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/left_out.hpp"
-#include "tools/recordings/rows/fields.hpp"
 #include "tools/recordings/rows/lines.hpp"
 
 namespace s7200::tools {

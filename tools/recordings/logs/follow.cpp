@@ -12,8 +12,8 @@
 #include "interpreter/base/result.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/json/base64.hpp"
+#include "tools/recordings/fields/fields.hpp"
 #include "tools/recordings/forms.hpp"
-#include "tools/recordings/rows/fields.hpp"
 #include "tools/recordings/rows/lines.hpp"
 #include "tools/recordings/scan.hpp"
 

@@ -7,9 +7,9 @@
 
 #include <algorithm>
 
+#include "tools/recordings/fields/fields.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/left_out.hpp"
-#include "tools/recordings/rows/fields.hpp"
 #include "tools/recordings/rows/lines.hpp"
 #include "tools/recordings/scan.hpp"
 

@@ -12,9 +12,9 @@
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tools/recordings/capture_file.hpp"
+#include "tools/recordings/fields/fields.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/packets/serial_links.hpp"
-#include "tools/recordings/rows/fields.hpp"
 
 namespace s7200::tools {
 namespace {

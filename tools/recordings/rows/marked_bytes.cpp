@@ -9,8 +9,8 @@
 
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "tools/recordings/fields/fields.hpp"
 #include "tools/recordings/forms.hpp"
-#include "tools/recordings/rows/fields.hpp"
 #include "tools/recordings/rows/lines.hpp"
 #include "tools/recordings/scan.hpp"
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "tools/recordings/fields/fields.hpp"
 #include "tools/recordings/left_out.hpp"
-#include "tools/recordings/rows/fields.hpp"
 
 namespace s7200::tools {
 

@@ -9,7 +9,7 @@
 
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
-#include "tools/recordings/rows/fields.hpp"
+#include "tools/recordings/fields/fields.hpp"
 #include "tools/recordings/rows/marked_bytes.hpp"
 
 namespace s7200::tools {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/recordings/rows/fields.hpp"
+#include "tools/recordings/fields/fields.hpp"
 #include "tools/recordings/scan.hpp"
 
 namespace s7200::tools {

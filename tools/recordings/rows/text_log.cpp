@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "interpreter/base/text/text.hpp"
+#include "tools/recordings/fields/fields.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/left_out.hpp"
 #include "tools/recordings/rows/dump.hpp"
-#include "tools/recordings/rows/fields.hpp"
 #include "tools/recordings/rows/lines.hpp"
 #include "tools/recordings/rows/marked_bytes.hpp"
 #include "tools/recordings/scan.hpp"
