@@ -10,6 +10,7 @@ RecordedFrame row_not_read(std::size_t number, std::string why, std::optional<Ti
   return {.at = at,
           .direction = direction,
           .place = fmt::format("line {}", number),
+          .line = number,
           .doubt = std::make_shared<Doubt>(Doubt{.why = std::move(why), .is_text = is_text})};
 }
 

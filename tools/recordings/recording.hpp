@@ -40,6 +40,7 @@ struct RecordedFrame {
   Direction direction = Direction::Unknown;
   Bytes bytes{};               ///< as on a serial line: a message of Modbus TCP has its unit for the station, and a CRC
   std::string place{};         ///< `packet 3`, `line 12`
+  std::size_t line = 0;        ///< of a text log, from 1; 0: it is of no line of one
   std::uint32_t stream = 0;    ///< of Modbus TCP: which connection; a request and its answer are of the same
   std::uint32_t exchange = 0;  ///< of Modbus TCP: transaction and unit; a request and its answer have the same
   std::vector<Time> times{};   ///< of each character, if the recording says; the first is `at`

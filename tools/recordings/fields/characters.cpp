@@ -25,7 +25,8 @@ void CharacterJoiner::add(const RecordedFrame& row, std::vector<RecordedFrame>& 
   const bool joins =
       !frames.empty() && frames.back().direction == row.direction && last_ && row.at && *row.at - *last_ <= gap_;
   last_ = row.at;
-  if (!joins) frames.push_back({.at = row.at, .direction = row.direction, .place = row.place, .stream = row.stream});
+  if (!joins)
+    frames.push_back({.at = row.at, .direction = row.direction, .place = row.place, .line = row.line, .stream = row.stream});
   RecordedFrame& frame = frames.back();
   for (const std::size_t place : row.damaged) frame.damaged.push_back(frame.bytes.size() + place);
   frame.bytes.insert(frame.bytes.end(), row.bytes.begin(), row.bytes.end());

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "interpreter/base/bytes.hpp"
-#include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/rows/lines.hpp"
 #include "tools/recordings/scan.hpp"
@@ -74,7 +73,6 @@ std::string in_quotes(const std::string& name) {
 }  // namespace
 
 void keep_one_logger(LineRecording& recording, std::string_view text) {
-  constexpr std::string_view kLine = "line ";
   constexpr std::size_t kFewest = 2, kMostNames = 2;
   constexpr std::size_t kSeen = 1000;  // rows with one name, after which no other is looked for
   std::vector<Logger> loggers;
@@ -82,11 +80,9 @@ void keep_one_logger(LineRecording& recording, std::string_view text) {
   auto line = lines.begin();
   std::size_t number = 1;
   for (std::size_t i = 0; i < recording.frames.size(); ++i) {
-    const std::string& place = recording.frames[i].place;
-    const auto wanted =
-        place.starts_with(kLine) ? parse_decimal<std::size_t>(std::string_view(place).substr(kLine.size())) : std::nullopt;
-    if (!wanted || *wanted < number || (i == kSeen && loggers.size() == 1)) return;
-    for (; number < *wanted && line != lines.end(); ++number) ++line;
+    const std::size_t wanted = recording.frames[i].line;
+    if (wanted < number || (i == kSeen && loggers.size() == 1)) return;
+    for (; number < wanted && line != lines.end(); ++number) ++line;
     if (line == lines.end()) return;
     const std::string name = name_in(*line);
     auto logger = std::ranges::find(loggers, name, &Logger::name);

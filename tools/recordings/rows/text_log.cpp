@@ -381,12 +381,16 @@ class LogReader {
            (row_left_out_ || is_offset_of(digits, recording_.frames.back().bytes.size()));
   }
 
+  /// A frame that begins in the line that is being read.
+  RecordedFrame frame_here(Direction direction, std::optional<Time> at = {}) const {
+    return {.at = at, .direction = direction, .place = fmt::format("line {}", number_), .line = number_};
+  }
+
   /// A character without a time: a frame lasts until the other end speaks.
   void take(const RecordedCharacter& character) {
     drop_heading();
     std::vector<RecordedFrame>& frames = recording_.frames;
-    if (!in_characters_ || frames.back().direction != character.direction)
-      frames.push_back({.direction = character.direction, .place = fmt::format("line {}", number_)});
+    if (!in_characters_ || frames.back().direction != character.direction) frames.push_back(frame_here(character.direction));
     frames.back().bytes.push_back(character.byte);
     in_characters_ = has_other_rows_ = true;
   }
@@ -439,8 +443,8 @@ class LogReader {
     if (direction == Direction::Unknown && bracket != std::string_view::npos && bracket <= found.begin)
       direction = direction_of_brackets(line.substr(bracket));
     has_other_rows_ = has_other_rows_ || found.bytes.size() != 1 || !at;
-    RecordedFrame frame{
-        .at = at, .direction = direction, .bytes = std::move(found.bytes), .place = fmt::format("line {}", number_)};
+    RecordedFrame frame = frame_here(direction, at);
+    frame.bytes = std::move(found.bytes);
     if (joins_) return joiner_.add(frame, recording_.frames);
     recording_.frames.push_back(std::move(frame));
     if (!found.not_understood.empty()) recording_.frames.back().doubt = doubt_of(found, std::move(found.readings));
@@ -449,7 +453,7 @@ class LogReader {
   /// Leaves a row out, since a part of a frame would be a frame that nobody sent. Its place is kept: a request before it may
   /// have got it for an answer.
   void leave_out(const BytesInLine& found, std::optional<Time> at, Direction direction) {
-    RecordedFrame frame{.at = at, .direction = direction, .place = fmt::format("line {}", number_)};
+    RecordedFrame frame = frame_here(direction, at);
     const bool goes_on = goes_on_ || has_offsets_;
     const bool is_row = !at && (goes_on || heading_ || lost_row_);
     if (is_row && goes_on) {
