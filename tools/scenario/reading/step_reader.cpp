@@ -10,23 +10,16 @@ namespace s7200::tools {
 namespace {
 
 /// What other tools for tests call a step, or part of one.
-struct OtherStep {
-  std::string_view word, hint;
+struct OtherSteps {
+  std::array<std::string_view, 5> words;
+  std::string_view hint;
 };
 constexpr std::array kOtherSteps{
-    OtherStep{"input", "'set' switches inputs: set: {I0.0: 1}"},
-    OtherStep{"inputs", "'set' switches inputs: set: {I0.0: 1}"},
-    OtherStep{"expect", "of memory it is - memory: {Q0.0: 1}; of an answer it stands beside the request"},
-    OtherStep{"assert", "'memory' expects values: memory: {Q0.0: 1}"},
-    OtherStep{"check", "'memory' expects values: memory: {Q0.0: 1}"},
-    OtherStep{"output", "'memory' expects values: memory: {Q0.0: 1}"},
-    OtherStep{"outputs", "'memory' expects values: memory: {Q0.0: 1}"},
-    OtherStep{"run", "'wait' lets time pass: wait: 100ms"},
-    OtherStep{"sleep", "'wait' lets time pass: wait: 100ms"},
-    OtherStep{"delay", "'wait' lets time pass: wait: 100ms"},
-    OtherStep{"advance", "'wait' lets time pass: wait: 100ms"},
-    OtherStep{"answer", "'expect' beside a request expects its answer"},
-    OtherStep{"response", "'expect' beside a request expects its answer"},
+    OtherSteps{{"input", "inputs"}, "'set' switches inputs: set: {I0.0: 1}"},
+    OtherSteps{{"expect"}, "of memory it is - memory: {Q0.0: 1}; of an answer it stands beside the request"},
+    OtherSteps{{"assert", "check", "output", "outputs"}, "'memory' expects values: memory: {Q0.0: 1}"},
+    OtherSteps{{"run", "sleep", "delay", "advance"}, "'wait' lets time pass: wait: 100ms"},
+    OtherSteps{{"answer", "response"}, "'expect' beside a request expects its answer"},
 };
 
 constexpr int kLargestLoop = 4096;
@@ -100,8 +93,9 @@ const YamlNode* StepReader::find_action(const YamlNode& node) {
     });
   });
   const YamlNode* const written = unknown != node.keys.end() ? &*unknown : node.keys.empty() ? nullptr : &node.keys.front();
-  const auto other = std::ranges::find_if(
-      kOtherSteps, [&](const OtherStep& each) { return written != nullptr && each.word == written->text; });
+  const auto other = std::ranges::find_if(kOtherSteps, [&](const OtherSteps& each) {
+    return written != nullptr && !written->text.empty() && std::ranges::find(each.words, written->text) != each.words.end();
+  });
   const std::string hint =
       other == kOtherSteps.end() ? fmt::format("it has one of: {}", fmt::join(known, ", ")) : std::string(other->hint);
   if (unknown != node.keys.end())

@@ -26,6 +26,9 @@ bool is_box_of(const Op& op, Area area, std::uint32_t number) {
   return instruction.hidden == Hidden::Number && instruction.operand[0].areas == set_of(area) && op[2].at == number;
 }
 
+/// The level of the stack, from its top, that is the input by which a counter counts up or down.
+std::size_t level_of_count(const Instruction& counter, bool down) { return counter.mnemonic == "CTUD" && !down ? 2 : 1; }
+
 }  // namespace
 
 Obstacle Obstacles::of_timer(const Bits& bit, bool wanted) {
@@ -74,11 +77,10 @@ Obstacle Obstacles::of_counter(const Bits& bit, bool wanted) {
     const Instruction& instruction = *op(by).instruction;
     const auto preset = static_cast<std::int16_t>(contacts_.value(by, 1).value_or(0));
     const bool down = instruction.mnemonic == "CTD";
-    const std::size_t count_level = instruction.mnemonic == "CTUD" ? 2 : 1;
     const std::int64_t left = std::max<std::int64_t>(down ? now : preset - now, 0);
     found.text = fmt::format("a counter at {} of {}", now, preset);
     if (wanted) {
-      add_edges(found, by, count_level, left);
+      add_edges(found, by, level_of_count(instruction, down), left);
       const std::vector<Conditions> quiet = ways_.fewest_changes(ways_.input(by, 0, false));
       if (!quiet.empty() && !quiet.front().empty())
         found.because.push_back(of_input(by, 0, false, fmt::format("its {} input must be off", down ? "load" : "reset")));
@@ -167,9 +169,9 @@ void Obstacles::add_timing(Obstacle& to, std::uint32_t by, std::uint32_t number,
 }
 
 void Obstacles::add_counting(Obstacle& to, std::uint32_t by, std::int64_t away) {
-  const std::string_view mnemonic = op(by).instruction->mnemonic;
-  if (away > 0 && mnemonic != "CTD") add_edges(to, by, mnemonic == "CTUD" ? 2 : 1, away);
-  if (away < 0 && mnemonic != "CTU") add_edges(to, by, 1, -away);
+  const Instruction& counter = *op(by).instruction;
+  if (away > 0 && counter.mnemonic != "CTD") add_edges(to, by, level_of_count(counter, false), away);
+  if (away < 0 && counter.mnemonic != "CTU") add_edges(to, by, level_of_count(counter, true), -away);
 }
 
 }  // namespace s7200::tools

@@ -7,6 +7,7 @@
 
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/model/area.hpp"
 #include "interpreter/model/cpu_model.hpp"
 
 namespace s7200::tools {
@@ -21,33 +22,32 @@ namespace {
 
 /// Whether a word is the letters of an address whose number follows: `VW`
 bool is_letters_of_address(std::string_view word) {
-  constexpr std::string_view kAreas[] = {"I", "Q", "M", "V", "S", "L", "SM"}, kOthers[] = {"T", "C", "AC", "HC", "AI", "AQ"};
   const std::string letters = stl::upper_case(word);
-  const std::string_view size = std::string_view(letters).substr(letters.empty() ? 0 : letters.size() - 1);
-  const bool sized = size == "B" || size == "W" || size == "D";
-  const std::string_view area = std::string_view(letters).substr(0, letters.size() - (sized ? 1 : 0));
-  return std::ranges::find(kAreas, area) != std::end(kAreas) || std::ranges::find(kAreas, letters) != std::end(kAreas) ||
-         std::ranges::find(kOthers, sized ? area : std::string_view(letters)) != std::end(kOthers);
-}
-
-/// The parts of `VW10=4,VW12=5`; a comma in quotes, or before what is no assignment, stays.
-std::vector<std::string> parts_of(const std::string& text) {
-  std::vector<std::string> parts{""};
-  char quote = '\0';
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    const char c = text[at];
-    if (quote == '\0' && c == ',' && (at + 1 == text.size() || text.find('=', at) != std::string::npos)) {
-      parts.emplace_back();
-      continue;
-    }
-    if (c == '\'' || c == '"') quote = quote == '\0' ? c : c == quote ? '\0' : quote;
-    parts.back() += c;
-  }
-  std::erase(parts, "");
-  return parts;
+  if (area_named(letters)) return true;
+  const bool sized = !letters.empty() && std::string_view("BWD").find(letters.back()) != std::string_view::npos;
+  return sized && area_named(std::string_view(letters).substr(0, letters.size() - 1));
 }
 
 }  // namespace
+
+std::vector<std::string> parts_between_commas(std::string_view text, bool assignments) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  char quote = '\0';
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (quote != '\0')
+      quote = c == quote ? '\0' : quote;
+    else if (c == '\'' || c == '"')
+      quote = c;
+    else if (c == ',' && (!assignments || at + 1 == text.size() || text.find('=', at) != text.npos)) {
+      parts.emplace_back(stl::trim(text.substr(begin, at - begin)));
+      begin = at + 1;
+    }
+  }
+  parts.emplace_back(stl::trim(text.substr(begin)));
+  return parts;
+}
 
 std::vector<std::string> assignments_of(const std::vector<std::string>& arguments) {
   std::vector<std::string> texts;
@@ -62,7 +62,8 @@ std::vector<std::string> assignments_of(const std::vector<std::string>& argument
   }
   std::vector<std::string> all;
   for (const std::string& text : texts)
-    for (std::string& part : parts_of(text)) all.push_back(std::move(part));
+    for (std::string& part : parts_between_commas(text, true))
+      if (!part.empty()) all.push_back(std::move(part));
   return all;
 }
 

@@ -12,6 +12,10 @@ namespace s7200::tools {
 /// The words with a blank between them.
 std::string joined(const std::vector<std::string>& words);
 
+/// The parts of `VW10,VW20`, without the blanks around them. A comma in quotes stays; between `assignments`,
+/// `VW10=4,VW12=5`, so does one that no assignment follows.
+std::vector<std::string> parts_between_commas(std::string_view text, bool assignments);
+
 /// `VW100 = 5` is written with or without blanks, `VW 100=5` with one in the address, and `VW10=4,VW12=5` with a comma.
 std::vector<std::string> assignments_of(const std::vector<std::string>& arguments);
 

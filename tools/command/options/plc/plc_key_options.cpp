@@ -5,9 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "interpreter/base/text/text.hpp"
 #include "tools/command/options/help_groups.hpp"
 #include "tools/command/terminal/terminal.hpp"
+#include "tools/session/words/words.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -54,23 +54,7 @@ CLI::Option* add_option(CLI::App& app, const PlcKey& key, std::vector<std::strin
 /// The items of `VW10,VW20` for a list and of `VW10=1,VW12=2` for a map; quoted text stays whole.
 std::vector<std::string> items_of(const PlcKey& key, const std::string& value) {
   const bool list = key.shape == PlcKey::Shape::List, map = key.shape == PlcKey::Shape::Map;
-  if (!list && !map) return {value};
-  std::vector<std::string> items;
-  std::size_t begin = 0;
-  char quote = '\0';
-  for (std::size_t at = 0; at < value.size(); ++at) {
-    const char c = value[at];
-    if (quote != '\0')
-      quote = c == quote ? '\0' : quote;
-    else if (c == '\'' || c == '"')
-      quote = c;
-    else if (c == ',' && (list || value.find('=', at) != std::string::npos)) {
-      items.emplace_back(stl::trim(std::string_view(value).substr(begin, at - begin)));
-      begin = at + 1;
-    }
-  }
-  items.emplace_back(stl::trim(std::string_view(value).substr(begin)));
-  return items;
+  return list || map ? parts_between_commas(value, map) : std::vector<std::string>{value};
 }
 
 }  // namespace
