@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 
 #include "interpreter/base/text/counted.hpp"
@@ -178,54 +177,6 @@ std::size_t mnemonic_without_blank(std::string_view code) {
     if (address && address->size != stl::Size::None) return length;
   }
   return 0;
-}
-
-/// Text of another product's programming software, and a sign of it.
-struct OtherProduct {
-  std::string_view sign, what;
-};
-constexpr std::array kOtherProducts{
-    OtherProduct{"LOGO!",
-                 "it is about LOGO!, not the S7-200; LOGO!Soft Comfort has no STL, so enter its blocks as STL by hand"},
-    OtherProduct{"<SW.Blocks.", "it is a block of TIA Portal for the S7-1200 and S7-1500, not a program of the S7-200"},
-    OtherProduct{"S7_Optimized_Access",
-                 "it is a block of TIA Portal for the S7-1200 and S7-1500, not a program of the S7-200"},
-    OtherProduct{"http://www.plcopen.org/xml/",
-                 "it is PLCopen XML, not STL of the S7-200; export the program as STL from Micro/WIN"},
-    OtherProduct{"<RSLogix5000Content", "it is a project for Allen-Bradley controllers, not a program of the S7-200"},
-};
-
-/// `B001(On-Delay)`, `B012(AND) :`: a block as LOGO!Soft Comfort prints it.
-bool is_logo_block(std::string_view line) {
-  const std::size_t digits = line.find_first_not_of("0123456789", 1);
-  return line.starts_with('B') && digits == 4 && line[digits] == '(' && line.find(')', digits) != line.npos;
-}
-
-/// `:U E 1.0`, `:BE`, `:L KF +10`: a line of STEP 5.
-bool is_step5(std::string_view code) {
-  if (!code.starts_with(':')) return false;
-  const std::vector<std::string> words = stl::split_words(stl::upper_case(code.substr(1)));
-  constexpr std::array kWords{"U", "UN", "O", "ON", "=", "S", "R", "L", "T", "BE", "BEA", "BEB", "SPA", "SPB", "U(", "O("};
-  return !words.empty() && std::ranges::find(kWords, words[0]) != kWords.end();
-}
-
-/// The product that a text belongs to, and what to do; empty if none is known.
-std::string_view why_other_product(std::string_view text) {
-  std::size_t blocks = 0, step5 = 0;
-  constexpr std::size_t kSeen = 1 << 16;
-  text = text.substr(0, kSeen);
-  const auto product =
-      std::ranges::find_if(kOtherProducts, [text](const OtherProduct& each) { return text.find(each.sign) != text.npos; });
-  if (product != kOtherProducts.end()) return product->what;
-  while (!text.empty()) {
-    const std::string_view line = stl::trim(stl::take_line(text));
-    blocks += is_logo_block(line) ? 1U : 0U;
-    step5 += is_step5(line) ? 1U : 0U;
-  }
-  if (blocks > 1) return kOtherProducts[0].what;
-  if (step5 > 1)
-    return "it is a program in STEP 5 for the S5, not STL of the S7-200: A for U, I and Q for E and A, no : before it";
-  return {};
 }
 
 /// The message about a text that has no statement in its first lines.

@@ -250,6 +250,8 @@ Result<LineRecording> read_recording(std::string_view file, const ReadingChoices
   });
   const bool one_value_each =  // `10:00:00,21,35` below `time,temp,pressure`
       std::ranges::all_of(recording->frames, [](const RecordedFrame& frame) { return frame.bytes.size() <= 1; });
+  if (const std::string_view product = without_bytes ? why_other_product(bytes) : std::string_view(); !product.empty())
+    return why = product, std::nullopt;
   if (without_bytes || (table && one_value_each)) {
     std::string why = table ? "no column found for the bytes: name it Hex" : "no frames found";
     for (const std::string& note : recording->notes) why += "; " + note;

@@ -142,6 +142,13 @@ TEST(NamedValues, AreNoBytes) {
   EXPECT_TRUE(more.frames[2].doubt);
 }
 
+TEST(OtherProducts, TheirProgramsAreNamedWhereNoFrameIs) {
+  std::string why;
+  EXPECT_FALSE(read_recording("LOGO! Soft Comfort V8.3\nQ1 -- B001\n", {}, why));
+  EXPECT_EQ(why.substr(0, 34), "it is about LOGO!, not the S7-200;");
+  EXPECT_EQ(texts("LOGO! as master\nTX 01 03 00 00 00 02 C4 0B\nRX 01 03 04 00 0A 00 14 DA 3E\n"), kConversation);
+}
+
 TEST(ModbusTcp, ARequestOfRtuWithAWrongCrcIsNone) {
   for (const char* text : {"TX 01 03 00 00 00 02 C4 0C\n", "01 01 00 00 00 02 BD CC\n", "TX 05 06 00 00 00 02 12 34\n"}) {
     const LineRecording recording = recording_of(text);
