@@ -11,6 +11,7 @@
 #include "interpreter/model/smart.hpp"
 #include "interpreter/program/loading/cpu_choice.hpp"
 #include "interpreter/program/loading/dialect.hpp"
+#include "interpreter/program/loading/german.hpp"
 #include "interpreter/program/loading/table_in_program.hpp"
 #include "interpreter/stl/blocks.hpp"
 #include "interpreter/stl/document.hpp"
@@ -37,6 +38,14 @@ const stl::InstructionSet& instruction_set() {
         return stl::Advice{std::move(what), std::move(hint)};
       }};
   return kInstructions;
+}
+
+/// Whether it is an instruction of the international set or of the German one: `U` for `A`.
+bool is_instruction_of_either_set(std::string_view mnemonic, std::size_t operands) {
+  if (instruction_set().has(mnemonic, operands)) return true;
+  if (!mnemonic.starts_with('U')) return false;
+  const std::string international = "A" + std::string(mnemonic.substr(1));
+  return german_mnemonic(international) == mnemonic && instruction_set().has(international, operands);
 }
 
 /// Whether a line that is neither empty nor a comment may be meant as a statement: `LD I0.0`, `FROB`, `U E0.0`.
@@ -286,8 +295,8 @@ Result<SourceText> read_source(std::string_view bytes, const std::string& name, 
   }
   if (const std::string_view wrapped = why_wrapped(decoded->text); !wrapped.empty()) return Trouble{std::string(wrapped)};
   const auto inside = stl::program_in_strings(decoded->text);
-  const stl::PlainText plain(inside ? inside->text : decoded->text, instruction_set().has);
-  const auto with_table = table_in_program(plain.text(), instruction_set().has);
+  const stl::PlainText plain(inside ? inside->text : decoded->text, is_instruction_of_either_set);
+  const auto with_table = table_in_program(plain.text(), is_instruction_of_either_set);
   const std::string_view text = with_table ? std::string_view(with_table->program) : plain.text();
   const auto cpu_line = place_of_cpu_line(text);
   auto source = cpu_line ? read_plain(std::string(text).insert(*cpu_line, "// "), name, force_document)

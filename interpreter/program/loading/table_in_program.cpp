@@ -39,7 +39,10 @@ std::vector<std::string> words_of_line(std::string_view line) {
 class TableFinder {
  public:
   TableFinder(std::string_view text, const IsInstruction& is_instruction)
-      : lines_(stl::split_lines(text)), is_instruction_(is_instruction), in_table_(lines_.size(), false) {
+      : lines_(stl::split_lines(text)),
+        is_instruction_(is_instruction),
+        in_table_(lines_.size(), false),
+        above_table_(lines_.size(), false) {
     for (const std::string& line : lines_) read_.push_back(read(line));
   }
 
@@ -50,7 +53,7 @@ class TableFinder {
     if (!any || std::ranges::find(read_, LineKind::Statement, &ReadLine::kind) == read_.end()) return {};
     ProgramWithTable result;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
-      (in_table_[i] ? result.table : result.program) += lines_[i];
+      if (!above_table_[i]) (in_table_[i] ? result.table : result.program) += lines_[i];
       result.table += '\n';
       result.program += '\n';
     }
@@ -65,7 +68,10 @@ class TableFinder {
     if (words[0] == "NETWORK" || is_instruction_(words[0], words.size() - 1)) return {LineKind::Statement};
     if (line.size() > kLongestRow) return {};
     if (stl::is_head_of_symbols(line)) return {LineKind::Head};
-    if (std::ranges::none_of(line, stl::is_digit)) return {};
+    const char begin = stl::trim(line).front();
+    const bool begins = stl::is_letter(begin) || std::string_view("_\"|%").find(begin) != std::string_view::npos ||
+                        static_cast<unsigned char>(begin) >= 0x80;
+    if (!begins || std::ranges::none_of(line, stl::is_digit)) return {};
     const stl::ParseResult symbol = stl::read_symbol_table(line, {});
     if (symbol.source.symbols.size() != 1 || !symbol.diagnostics.empty()) return {};
     const stl::Symbol& row = symbol.source.symbols.front();
@@ -92,7 +98,7 @@ class TableFinder {
     std::size_t above = first;
     while (above > 0 && read_[above - 1].kind == LineKind::Blank) --above;
     if (above > 0 && read_[above - 1].kind == LineKind::Other && is_title_of_table(lines_[above - 1]))
-      in_table_[above - 1] = true;
+      above_table_[above - 1] = true;
     return last;
   }
 
@@ -112,8 +118,8 @@ class TableFinder {
   std::vector<std::string> lines_;
   const IsInstruction& is_instruction_;
   std::vector<ReadLine> read_{};
-  std::vector<bool> in_table_;
-  std::set<std::string> words_{};  // of statements
+  std::vector<bool> in_table_, above_table_;  ///< above: its title
+  std::set<std::string> words_{};             // of statements
 };
 
 }  // namespace

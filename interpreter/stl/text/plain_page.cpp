@@ -31,7 +31,8 @@ std::optional<LineNumber> line_number(std::string_view line) {
   const auto skip = [&](std::size_t at, std::string_view characters) {
     return std::min(line.find_first_not_of(characters, at), line.size());
   };
-  const std::size_t digits = skip(0, " \t[(");
+  std::size_t digits = skip(0, " \t[(");
+  if (line.substr(digits).starts_with("N0")) ++digits;  // `N001 LD I0.0`
   const std::size_t end = skip(digits, "0123456789");
   constexpr std::size_t kMostDigits = 6;
   if (end == digits || end - digits > kMostDigits) return std::nullopt;
@@ -66,10 +67,11 @@ std::size_t speaker(std::string_view line) {
   return end != line.npos && end > name && end - name <= kLongestName ? end + 2 : 0;
 }
 
-/// How many bytes the > of quoted text takes at the beginning of a line.
+/// How many bytes the > of quoted text takes at the beginning of a line, `> > LD I0.0` if it was quoted again.
 std::size_t quotation_mark(std::string_view line) {
-  const std::size_t from = line.find_first_not_of(" \t");
-  return from != std::string_view::npos && line[from] == '>' ? from + 1 : 0;
+  const std::size_t end = std::min(line.find_first_not_of("> \t"), line.size());
+  const std::size_t last = line.substr(0, end).rfind('>');
+  return last != std::string_view::npos ? last + 1 : 0;
 }
 
 /// The length in bytes of the - or * at the beginning of a list's row. No instruction has a blank after these signs.
@@ -177,16 +179,30 @@ bool is_rule(std::string_view line) {
   return line.find_first_not_of("|-+:= \t") == line.npos && line.find('-') != line.npos;
 }
 
-/// The first gap of several blanks, or a tab, after the first operand of a line; at its end if there is none.
-Part gap_after_operand(std::string_view code) {
+/// The next gap in a line after its first operand, or after the place `from`; at the line's end if there is none.
+Part gap_after_operand(std::string_view code, std::size_t from) {
   const Part none{code.size(), code.size()};
-  const std::size_t begin = code.find_first_not_of(" \t");
-  const std::size_t mnemonic = begin == code.npos ? code.npos : code.find_first_of(" \t", begin);
-  const std::size_t operand = mnemonic == code.npos ? code.npos : code.find_first_not_of(" \t", mnemonic);
-  if (operand == code.npos) return none;
-  const std::size_t gap = std::min(code.find("  ", operand), code.find('\t', operand));
-  const std::size_t words = gap == code.npos ? code.npos : code.find_first_not_of(" \t", gap);
-  return words == code.npos ? none : Part{gap, words};
+  const auto next = [&](std::size_t at, bool blank) {
+    while (at < code.size() && is_blank(code[at]) != blank) ++at;
+    return at;
+  };
+  const std::size_t operand = from > 0 ? from : next(next(next(0, false), true), false);
+  const std::size_t gap = next(operand, true), words = next(gap, false);
+  return words == code.size() ? none : Part{gap, words};
+}
+
+/// Whether words stand far from what is before them: `LD I0.0   start`
+bool has_words_apart(std::string_view line) {
+  const std::string_view code = code_of(line);
+  for (Part gap = gap_after_operand(code, 0); gap.to < code.size(); gap = gap_after_operand(code, gap.to))
+    if (gap.to - gap.from > 1 || code[gap.from] == '\t') return true;
+  return false;
+}
+
+/// Whether small letters, or such beyond ASCII, follow the first operand of a line: `LD I0.0 Start`
+bool may_have_words(std::string_view code) {
+  return std::ranges::any_of(code.substr(gap_after_operand(code, 0).to),
+                             [](char c) { return is_lower(c) || static_cast<unsigned char>(c) >= 0x80; });
 }
 
 /// `-----`, `=====`, `* * *`: a line of one sign.
@@ -396,7 +412,7 @@ class PageReader {
     write_network_headings();
     make_comments_of_rules();
     close_gaps_in_addresses();
-    make_comments_of_words_apart();
+    make_comments_of_words_after_statements();
   }
 
   /// Paragraphs and headings between the lines of a program that has tags or is quoted, too. `lines` are those of the
@@ -576,27 +592,36 @@ class PageReader {
     }
   }
 
-  /// Where words stand apart from a whole statement, and can be neither its operands nor a statement: `LD I0.0    start
-  /// key`.
-  std::optional<std::size_t> words_apart(std::string_view line) const {
+  /// Where words follow a whole statement, and can be neither its operands nor a statement: `LD I0.0 Start button`.
+  std::optional<std::size_t> words_after_statement(std::string_view line) const {
     const std::string_view code = trim_end(code_of(line));
-    const auto [gap, words] = gap_after_operand(code);
-    if (words == code.size() || code.size() < line.size() || code.find_first_of("'\"|") != code.npos) return {};
-    const std::string_view text = code.substr(words), first = text.substr(0, text.find_first_of(" \t"));
-    const bool is_word = is_letter(text.front()) || static_cast<unsigned char>(text.front()) >= 0x80;
-    if (!is_word || first.ends_with(',') || may_be_operand(first) || is_statement(text)) return {};
-    return takes_as_written(code.substr(0, gap)) && !takes_as_written(code) ? std::optional(words) : std::nullopt;
+    if (code.size() < trim_end(line).size() || code.find_first_of("'\"|") != code.npos || takes_as_written(code)) return {};
+    for (Part gap = gap_after_operand(code, 0); gap.to < code.size(); gap = gap_after_operand(code, gap.to)) {
+      const std::string_view text = code.substr(gap.to), first = text.substr(0, text.find_first_of(" \t"));
+      const bool is_word = is_letter(text.front()) || static_cast<unsigned char>(text.front()) >= 0x80;
+      if (!is_word || code[gap.from - 1] == ',' || first.ends_with(',') ||
+          looks_like_statement(fmt::format("LD {}", first)) || is_statement(text))
+        continue;
+      if (takes_as_written(code.substr(0, gap.from))) return gap.to;
+    }
+    return {};
   }
 
-  /// Puts // before such words if all other lines are statements: in a document they may be text.
-  void make_comments_of_words_apart() {
+  /// Puts // before such words if most other lines are statements: in a document they may be text. A single line with words
+  /// close to its operand may have a wrong operand.
+  void make_comments_of_words_after_statements() {
     if (!is_instruction_) return;
-    const auto is_of_listing = [this](const Row& row) {
-      return stands_without_mark(row.text) || is_statement(row.text) || words_apart(row.text);
-    };
-    if (!std::ranges::all_of(rows_, is_of_listing)) return;
+    constexpr std::size_t kMost = 4;  // so many lines to one that is no statement
+    std::size_t close = 0, apart = 0, others = 0, lines = 0;
+    for (const Row& row : rows_) {
+      const auto words = words_after_statement(row.text);
+      lines += trim(code_of(row.text)).empty() ? 0U : 1U;
+      others += !words && !stands_without_mark(row.text) && !is_statement(row.text) ? 1U : 0U;
+      if (words) ++(has_words_apart(row.text) ? apart : close);
+    }
+    if (close + apart == 0 || (close == 1 && apart == 0) || kMost * others > lines) return;
     for (Row& row : rows_)
-      if (const auto words = words_apart(row.text)) row.replace(*words, 0, "// ", kComments);
+      if (const auto words = words_after_statement(row.text)) row.replace(*words, 0, "// ", kComments);
   }
 
   /// Puts // before a line of strokes between networks: `---------`
@@ -640,7 +665,15 @@ class PageReader {
     std::set<std::string> known;
     bool inside = false;
     for (Row& row : rows_) {
-      if (upper_case(trim(row.text)) == "NETWORK COMMENT") row.leave_out(kInformation);
+      if (constexpr std::string_view kComment = "NETWORK COMMENT";
+          upper_case(trim(row.text).substr(0, kComment.size())) == kComment) {
+        const std::string_view rest = trim(row.text).substr(kComment.size());
+        const std::string_view words = trim(rest.substr(rest.starts_with(':') ? 1 : 0));
+        if (words.empty())
+          row.leave_out(kInformation);
+        else
+          row.replace(0, static_cast<std::size_t>(words.data() - row.text.data()), "// ", kInformation);
+      }
       const bool head = is_head_of_information(row.text);
       const std::vector<std::string> words = split_words(row.text);
       inside = head || (inside && words.size() >= 2 && !is_network(row) && looks_like_statement("LD " + words[1]));
@@ -752,18 +785,12 @@ void Row::append(std::string_view more, Change change) {
   text += more;
 }
 
-/// Whether words in small letters stand apart at the end of a line: `LD I0.0   start`
-bool has_words_apart(std::string_view code) {
-  return std::ranges::any_of(code.substr(gap_after_operand(code).to),
-                             [](char c) { return is_lower(c) || static_cast<unsigned char>(c) >= 0x80; });
-}
-
 bool may_need_page(std::string_view line) {
   const std::string_view code = trim(code_of(line));
   if (code.size() < line.size() && trim(line).ends_with('-')) return true;  // a broken comment
   if (code.empty()) return false;
   if (may_have_margin(line) || is_only_letter(code) || network_heading(code) || file_and_line(code) != 0) return true;
-  if (!gaps_in_addresses(code).empty() || is_plain_rule(code) || has_words_apart(code)) return true;
+  if (!gaps_in_addresses(code).empty() || is_plain_rule(code) || may_have_words(code)) return true;
   if (const std::size_t semicolon = code.find(';'); semicolon < code.size() - 1) return true;
   return (separator_of_row(code) != '\0' && code.find_first_of(";,\t") != code.size() - 1) || is_head_of_information(code);
 }
@@ -773,6 +800,7 @@ bool may_have_margin(std::string_view line) {
   if (from == std::string_view::npos) return false;
   if (is_digit(line[from]) || std::string_view("[(>#|\"'{\\").find(line[from]) != std::string_view::npos) return true;
   const std::string_view next = line.substr(from + 1, 1);
+  if (line[from] == 'N' && next == "0") return true;
   return (line[from] == '-' || line[from] == '*') && (next == " " || next == "\t" || next == "*");
 }
 

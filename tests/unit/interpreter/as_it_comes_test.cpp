@@ -116,6 +116,11 @@ TEST(AsItComes, WordsAfterADashOrFarFromTheirStatementAreAComment) {
        {std::pair("TON T37   delay\n", "TON T37, delay\n"), std::pair("LD I0.0   NOT\n", "LD I0.0, NOT\n")})
     EXPECT_EQ(program(apart), program(operands));
   EXPECT_EQ(program("LD I0.0   start\nFROB\n"), program("LD I0.0, start\nFROB\n"));  // one line is no statement
+  EXPECT_EQ(program("LD I0.0 Start button\nAN I0.1 Stop button\n= Q0.0 Pump\n"),
+            program("LD I0.0 // Start button\nAN I0.1 // Stop button\n= Q0.0 // Pump\n"));
+  EXPECT_EQ(stl::to_text(read("LD E0.0   Taster Ein\nUN E0.1   Taster Aus\n= A0.0   K1\n").parsed.source),
+            stl::to_text(read("LD E0.0 // Taster Ein\nUN E0.1 // Taster Aus\n= A0.0 // K1\n").parsed.source));
+  EXPECT_EQ(program("LD I0.0\nA I0.1 Stop\n= Q0.0\n"), program("LD I0.0\nA I0.1, Stop\n= Q0.0\n"));  // only one
 }
 
 TEST(AsItComes, ATitleAfterTheNumberOfANetworkIsAComment) {
@@ -198,6 +203,14 @@ TEST(AsItComes, ATableOfSymbolsBesideItsProgramIsRead) {
     }
   EXPECT_EQ(read(code + "FROB I0.0\n").parsed.source.symbols.size(), 0U);  // nothing is called so
   EXPECT_EQ(read("In network 1 the motor is started.\n" + code).parsed.source.symbols.size(), 0U);
+}
+
+TEST(AsItComes, QuotedTwiceNumberedWithALetterAndWithTheWordsOfAPrintout) {
+  const std::string plain = program("NETWORK 1\nLD I0.0\n= Q0.0\n");
+  EXPECT_EQ(program("> > NETWORK 1\n> > LD I0.0\n>\n> = Q0.0\n"), program("NETWORK 1\nLD I0.0\n\n= Q0.0\n"));
+  EXPECT_EQ(program("NETWORK 1\nN001 LD I0.0\nN002 = Q0.0\n"), plain);
+  EXPECT_EQ(program("NETWORK 1\nNetwork Comment: the lamp\nLD I0.0\n= Q0.0\n"),
+            program("NETWORK 1\n// the lamp\nLD I0.0\n= Q0.0\n"));
 }
 
 TEST(AsItComes, ATitleWithoutItsBlockIsNamed) {
