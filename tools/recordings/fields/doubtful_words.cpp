@@ -336,12 +336,12 @@ std::optional<BytesInLine> cut_off_bytes(Words words) {
   return BytesInLine{.begin = digits.front().begin, .not_understood = digits.front().text};
 }
 
-std::optional<Run> last_run(Words words) {
+std::optional<RunOfBytes> last_run(Words words) {
   const auto has_bytes = [](const Word& word) { return word.bytes > 0; };
   const auto last = std::find_if(words.rbegin(), words.rend(), has_bytes).base();
   if (last == words.begin()) return {};
   const auto first = std::find_if_not(std::reverse_iterator(last), words.rend(), has_bytes).base();
-  return Run{{words.begin(), first}, {first, last}};
+  return RunOfBytes{{words.begin(), first}, {first, last}};
 }
 
 }  // namespace s7200::tools

@@ -56,7 +56,7 @@ std::size_t length_of_name(std::string_view word);
 void take_numbers_out(std::vector<Word>& words);
 
 /// The last run of bytes among words.
-struct Run {
+struct RunOfBytes {
   Words before, words;
 };
 
@@ -102,6 +102,6 @@ bool has_pairs(Words words);
 /// Digits at the end of a line that are not pairs: `RX 0103041234567`, `RX 001 003`
 std::optional<BytesInLine> cut_off_bytes(Words words);
 
-std::optional<Run> last_run(Words words);
+std::optional<RunOfBytes> last_run(Words words);
 
 }  // namespace s7200::tools
