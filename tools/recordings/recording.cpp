@@ -231,7 +231,11 @@ Result<LineRecording> read_recording(std::string_view file, const ReadingChoices
   }
   if (bytes.find_first_not_of(" \t\r\n") == std::string_view::npos) return Trouble{"the file is empty"};
   const auto other = std::ranges::find_if(kOtherTexts, [&](const OtherText& each) { return each.is_it(bytes); });
-  if (form->looks_like == is_text && other != kOtherTexts.end()) return Trouble{std::string(other->why)};
+  const auto refuse = [&](std::string_view reason) {
+    const std::string_view product = why_other_product(bytes);
+    return Trouble{std::string(product.empty() ? reason : product)};
+  };
+  if (form->looks_like == is_text && other != kOtherTexts.end()) return refuse(other->why);
   std::string in_other_encoding;
   if (form->looks_like == is_text) bytes = log_in_utf8(bytes, in_other_encoding);
   auto recording = form->read(bytes, choices);
@@ -250,12 +254,10 @@ Result<LineRecording> read_recording(std::string_view file, const ReadingChoices
   });
   const bool one_value_each =  // `10:00:00,21,35` below `time,temp,pressure`
       std::ranges::all_of(recording->frames, [](const RecordedFrame& frame) { return frame.bytes.size() <= 1; });
-  if (const std::string_view product = without_bytes ? why_other_product(bytes) : std::string_view(); !product.empty())
-    return why = product, std::nullopt;
   if (without_bytes || (table && one_value_each)) {
-    std::string why = table ? "no column found for the bytes: name it Hex" : "no frames found";
-    for (const std::string& note : recording->notes) why += "; " + note;
-    return Trouble{std::move(why)};
+    std::string reason = table ? "no column found for the bytes: name it Hex" : "no frames found";
+    for (const std::string& note : recording->notes) reason += "; " + note;
+    return refuse(reason);
   }
   return recording;
 }

@@ -131,8 +131,8 @@ TEST(MarksOfBytes, ThoseOfAssemblersAndOfHardwareLanguagesAreRead) {
 
 TEST(NamedValues, AreNoBytes) {
   const std::string frames = "TX 01 03 00 00 00 02 C4 0B\nRX 01 03 04 00 0A 00 14 DA 3E\n";
-  for (const char* line :
-       {"Values: 10 20", "registers = 10, 20", "holding registers: [10, 20]", "Werte: 10 20", "Result: 10 20"}) {
+  for (const char* line : {"Values: 10 20", "registers = 10, 20", "holding registers: [10, 20]", "Werte: 10 20",
+                           "Result: 10 20", "Decoded: slave 1, registers [10, 20]"}) {
     EXPECT_EQ(texts(frames + line + "\n"), kConversation) << line;
     EXPECT_EQ(texts(line + ("\n" + frames)), kConversation) << line;
   }
@@ -142,10 +142,34 @@ TEST(NamedValues, AreNoBytes) {
   EXPECT_TRUE(more.frames[2].doubt);
 }
 
+TEST(BytesAfterAnEqualsSign, AreAllOfThem) {
+  for (const char* text :
+       {"data=01 03 00 00 00 02 C4 0B\ndata=01 03 04 00 0A 00 14 DA 3E\n",
+        "dir=tx data=01 03 00 00 00 02 C4 0B\ndir=rx data=01 03 04 00 0A 00 14 DA 3E\n",
+        "t=0.0 dir=tx data=01 03 00 00 00 02 C4 0B len=8\nt=0.05 dir=rx data=01 03 04 00 0A 00 14 DA 3E len=9\n",
+        "TX len=08 01 03 00 00 00 02 C4 0B\nRX len=09 01 03 04 00 0A 00 14 DA 3E\n"})
+    EXPECT_EQ(texts(text), kConversation) << text;
+}
+
+TEST(ListsOfNumbers, MayHaveDashesBetweenThem) {
+  EXPECT_EQ(texts("modbus_rtu: -> 1-3-0-0-0-2-196-11\nmodbus_rtu: <- 1-3-4-0-10-0-20-218-62\n"), kConversation);
+}
+
+TEST(TablesOfExchanges, AColumnOfStationsIsNoAnswer) {
+  EXPECT_EQ(texts("Nr;Timestamp;Slave;Raw request;Raw response\n1;27.11.2026 10:00:00;1;01 03 00 00 00 02 C4 0B;"
+                  "01 03 04 00 0A 00 14 DA 3E\n"),
+            kConversation);
+  EXPECT_EQ(texts("TX {0x01,0x03,0x00,0x00,0x00,0x02,0xC4,0x0B}; // read\nRX "
+                  "{0x01,0x03,0x04,0x00,0x0A,0x00,0x14,0xDA,0x3E}; // 10 20\n"),
+            kConversation);
+}
+
 TEST(OtherProducts, TheirProgramsAreNamedWhereNoFrameIs) {
   std::string why;
-  EXPECT_FALSE(read_recording("LOGO! Soft Comfort V8.3\nQ1 -- B001\n", {}, why));
+  EXPECT_FALSE(read_recording("LOGO! Soft Comfort V8.3\nQ1 -- M1\n", {}, why));
   EXPECT_EQ(why.substr(0, 34), "it is about LOGO!, not the S7-200;");
+  EXPECT_FALSE(read_recording("<Document>\n<SW.Blocks.FC ID=\"0\"></SW.Blocks.FC>\n</Document>\n", {}, why));
+  EXPECT_EQ(why.substr(0, 29), "it is a block of TIA Portal f");
   EXPECT_EQ(texts("LOGO! as master\nTX 01 03 00 00 00 02 C4 0B\nRX 01 03 04 00 0A 00 14 DA 3E\n"), kConversation);
 }
 

@@ -83,23 +83,6 @@ constexpr std::array<std::string_view, 16> kNamesOfBytes{"DATA",    "BYTE",   "B
 /// Words before bytes that say on which line they were: `COM3`, `/dev/ttyUSB0`
 constexpr std::array<std::string_view, 6> kNamesOfLines{"COM", "TTY", "/DEV/", "UART", "SERIAL", "RS"};
 
-/// Whether a word is `tx`, `rx_data`, `COM3:`; a name with a number at its end is that of a line.
-bool names_bytes(const Word& word) {
-  if (names_a_direction(word)) return true;
-  constexpr std::string_view kAround = "[]():>,;=";
-  const std::string capitals = stl::upper_case(word.text);
-  const std::size_t begin = std::min(capitals.find_first_not_of(kAround), capitals.size());
-  const std::string_view name = std::string_view(capitals).substr(begin, capitals.find_last_not_of(kAround) + 1 - begin);
-  const auto begins = [&](std::string_view line) { return name.starts_with(line) && stl::is_digit(name.back()); };
-  if (std::ranges::any_of(kNamesOfLines, begins)) return true;
-  for (std::size_t at = 0; at < name.size(); ++at) {
-    const std::size_t first = at;
-    while (at < name.size() && is_letter(name[at])) ++at;
-    if (std::ranges::find(kNamesOfBytes, name.substr(first, at - first)) != kNamesOfBytes.end()) return true;
-  }
-  return false;
-}
-
 /// Whether a value is assigned to something that is not called as bytes are: `register 40001 = 1234`
 bool is_assigned(Words before, Words run) {
   if (before.empty() || run.size() != 1 || !before.back().text.ends_with('=')) return false;
@@ -121,7 +104,10 @@ const Word* name_of_values(Words before) {
   };
   while (!before.empty() && bare(before.back().text).empty()) before = before.first(before.size() - 1);
   if (before.empty() || std::ranges::find(kNamesOfValues, bare(before.back().text)) == kNamesOfValues.end()) return nullptr;
-  return std::ranges::none_of(before, names_bytes) ? &before.back() : nullptr;
+  const auto* const begin = before.front().text.data();
+  const std::string_view last = before.back().text, text(begin, static_cast<std::size_t>(last.data() + last.size() - begin));
+  const auto is_name = [](const Word& word) { return !names_a_direction(word) && names_bytes(word); };
+  return direction_of(text) == Direction::Unknown && std::ranges::none_of(before, is_name) ? &before.back() : nullptr;
 }
 
 /// Whether the last word is the name after an arrow: `CPU -> PC`
@@ -217,6 +203,22 @@ bool is_name_with_colon(std::string_view word) {
 }
 
 }  // namespace
+
+bool names_bytes(const Word& word) {
+  if (names_a_direction(word)) return true;
+  constexpr std::string_view kAround = "[]():>,;=";
+  const std::string capitals = stl::upper_case(word.text);
+  const std::size_t begin = std::min(capitals.find_first_not_of(kAround), capitals.size());
+  const std::string_view name = std::string_view(capitals).substr(begin, capitals.find_last_not_of(kAround) + 1 - begin);
+  const auto begins = [&](std::string_view line) { return name.starts_with(line) && stl::is_digit(name.back()); };
+  if (std::ranges::any_of(kNamesOfLines, begins)) return true;
+  for (std::size_t at = 0; at < name.size(); ++at) {
+    const std::size_t first = at;
+    while (at < name.size() && is_letter(name[at])) ++at;
+    if (std::ranges::find(kNamesOfBytes, name.substr(first, at - first)) != kNamesOfBytes.end()) return true;
+  }
+  return false;
+}
 
 bool names_a_direction(const Word& word) { return direction_of(word.text) != Direction::Unknown; }
 

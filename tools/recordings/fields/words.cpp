@@ -217,8 +217,8 @@ std::size_t length_of_name(std::string_view word) {
   if (end == 0 || end >= word.size()) return 0;
   const std::string_view name = word.substr(0, end);
   const std::string_view after = word.substr(end);
-  const bool names_it =
-      name.find('=') == std::string_view::npos && !is_port_of_host(name, after) && !is_sentence_with_commas(name, after);
+  const bool names_it = (name.find('=') == std::string_view::npos || names_bytes({.text = name})) &&
+                        !is_port_of_host(name, after) && !is_sentence_with_commas(name, after);
   return names_it ? name.size() : 0;
 }
 

@@ -48,7 +48,7 @@ std::string_view without_comment(std::string_view line);
 /// Whether a word is of a language, not hex: `feed` and `added` after pairs of digits.
 bool is_of_a_language(std::string_view word);
 
-/// The length of a name before bytes: `Tx:01` is `01` after its name; `len=09` and `plc:5020` have no such name.
+/// The length of a name before bytes: `Tx:01` is `01` after its name; `data=01` has one, `len=09` and `plc:5020` have none.
 std::size_t length_of_name(std::string_view word);
 
 /// Marks numbers that are not bytes, by the words beside them: `length 12`, `12 bytes`, `18 (0X12)`. A number with bytes
@@ -68,6 +68,9 @@ struct OtherRun {
 };
 
 bool names_a_direction(const Word& word);
+
+/// Whether a word is `tx`, `rx_data`, `COM3:`; a name with a number at its end is that of a line.
+bool names_bytes(const Word& word);
 
 /// Whether numbers after such a name are fewer than a frame has.
 bool are_values(Words before, Words run);

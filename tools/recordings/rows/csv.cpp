@@ -57,10 +57,17 @@ bool is_unit(std::string_view name) {
 
 /// Finds a column with the bytes of each direction: `Time,TX,RX`. A row with bytes or times names nothing.
 void find_one_for_each_direction(const std::vector<std::string>& names, Columns& columns) {
-  const auto is_value = [](const std::string& name) { return bytes_of_text(name) || leading_time(name); };
+  const auto is_value = [](const std::string& name) {
+    return bytes_of_text(name) || leading_time(name) || name.find("0x") != std::string::npos;
+  };
   if (std::ranges::any_of(names, is_value)) return;
+  const auto is_station = [](const std::string& name) { return contains(name, {"SLAVE", "MASTER"}); };
+  const bool besides = std::ranges::count_if(names, [&](const std::string& name) {
+                         return direction_of(name) != Direction::Unknown && !is_station(name);
+                       }) > 1;  // `Slave;Raw request;Raw response`
   const auto found = [&](Direction direction) -> std::optional<std::size_t> {
-    const auto name = std::ranges::find(names, direction, [](const std::string& each) { return direction_of(each); });
+    const auto name = std::ranges::find_if(
+        names, [&](const std::string& each) { return direction_of(each) == direction && !(besides && is_station(each)); });
     return name == names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(name - names.begin()));
   };
   const auto sent = found(Direction::Request), received = found(Direction::Answer);

@@ -13,13 +13,20 @@ namespace {
 
 bool is_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == '@'; }
 
-/// A value in quotation marks to the next mark, with its escapes read; any other to the next blank.
+/// A value in quotation marks to the next mark, with its escapes read; any other to the next blank, and with bytes after it,
+/// `data=01 03 00`, to the last of them.
 std::string take_value(std::string_view& rest) {
   const bool quoted = rest.starts_with('"');
   if (quoted) rest.remove_prefix(1);
   std::size_t end = std::min(rest.find_first_of(quoted ? "\"" : " \t"), rest.size());
   while (quoted && end > 0 && end < rest.size() && rest[end - 1] == '\\')
     end = std::min(rest.find('"', end + 1), rest.size());
+  for (bool bytes = !quoted && bytes_of_text(rest.substr(0, end)); bytes && end < rest.size();) {
+    const std::size_t next = rest.find_first_not_of(" \t", end),
+                      after = std::min(rest.find_first_of(" \t", next), rest.size());
+    bytes = next != std::string_view::npos && bytes_of_text(rest.substr(next, after - next));
+    if (bytes) end = after;
+  }
   const std::string_view value = rest.substr(0, end);
   rest.remove_prefix(std::min(end + 1, rest.size()));
   const auto characters = quoted && value.find('\\') != std::string_view::npos ? bytes_of_literal(value) : std::nullopt;

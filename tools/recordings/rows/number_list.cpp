@@ -29,9 +29,10 @@ Numbers numbers_at_end(std::string_view line) {
     numbers.texts.push_back(line.substr(begin, end - begin));
     numbers.begin = begin;
     numbers.in_brackets = is_any_of(before, kOpening);
-    const bool in_own_brackets = begin > 1 && before == '[' && line[begin - 2] == ']';  // `[011][003]`
-    if (begin == 0 || !(is_any_of(before, kSeparators) || in_own_brackets)) break;
-    end = in_own_brackets ? begin - 2 : line.find_last_not_of(kSeparators, begin - 1) + 1;
+    const bool in_own_brackets = begin > 1 && before == '[' && line[begin - 2] == ']';    // `[011][003]`
+    const bool after_dash = begin > 1 && before == '-' && is_hex_digit(line[begin - 2]);  // `1-3-0-196` of modbus_tk
+    if (begin == 0 || !(is_any_of(before, kSeparators) || in_own_brackets || after_dash)) break;
+    end = in_own_brackets ? begin - 2 : after_dash ? begin - 1 : line.find_last_not_of(kSeparators, begin - 1) + 1;
   }
   std::ranges::reverse(numbers.texts);
   return numbers;
