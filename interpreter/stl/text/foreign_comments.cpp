@@ -238,9 +238,9 @@ constexpr std::array kBrackets{Bracket{"(", ")"}, Bracket{"[", "]"}, Bracket{"{"
 /// The comment in brackets that ends a line: words in them, after a statement or alone. Nothing for `(Q0.0)`, which may be
 /// the address that a name before it has.
 std::optional<Found> comment_in_brackets(std::string_view line) {
-  const std::string_view text = trim_end(line);
+  const std::string_view text = trim_end(code_of(line));
   const auto kind = std::ranges::find_if(kBrackets, [text](const Bracket& each) { return text.ends_with(each.close); });
-  if (kind == kBrackets.end() || has_strokes(line) || text.find("//") != text.npos) return {};
+  if (kind == kBrackets.end() || has_strokes(line)) return {};
   const std::size_t begin = text.find(kind->open);
   if (begin == text.npos || (begin > 0 && !is_blank(text[begin - 1]))) return {};
   const std::string_view code = trim(text.substr(0, begin)), last = code.substr(code.find_last_of(" \t,;") + 1);

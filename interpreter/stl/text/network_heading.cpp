@@ -55,7 +55,7 @@ std::string_view without_rules_at_end(std::string_view text) {
   return text.substr(0, text.find_last_not_of("=-*#~_+])}> \t") + 1);
 }
 
-constexpr std::array<std::string_view, 6> kTitleDashes{":", "：", ".", "-", "–", "—"};
+constexpr std::array<std::string_view, 8> kTitleDashes{":", "：", ".", "-", "–", "—", ",", ";"};
 
 /// The title without the dash in front of it.
 std::string_view without_dash(std::string_view title) {

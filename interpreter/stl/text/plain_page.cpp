@@ -179,6 +179,20 @@ bool is_rule(std::string_view line) {
   return line.find_first_not_of("|-+:= \t") == line.npos && line.find('-') != line.npos;
 }
 
+/// `Network Comment`
+bool is_network_without_number(std::string_view code) {
+  return upper_case(code.substr(0, 8)) == "NETWORK " && code.size() > 8 && is_letter(code[8]);
+}
+
+/// `Motor start`, as people write it below the heading of a network: words in small letters, none of which is an operand.
+bool may_be_title_line(std::string_view code) {
+  constexpr std::size_t kShortest = 4, kMostWords = 8;
+  const std::vector<std::string> words = split_words(code);
+  return !words.empty() && words.size() <= kMostWords && words[0].size() >= kShortest &&
+         std::ranges::any_of(words[0], [](char c) { return is_lower(c) || static_cast<unsigned char>(c) >= 0x80; }) &&
+         std::ranges::none_of(words, may_be_operand) && code.find_first_of(",|()") == code.npos;
+}
+
 /// The next gap in a line after its first operand, or after the place `from`; at the line's end if there is none.
 Part gap_after_operand(std::string_view code, std::size_t from) {
   const Part none{code.size(), code.size()};
@@ -410,6 +424,7 @@ class PageReader {
           !leave_out_quotes() && !leave_out_numbers() && !leave_out_marks(list_mark))
         break;
     write_network_headings();
+    make_comments_of_titles();
     make_comments_of_rules();
     close_gaps_in_addresses();
     make_comments_of_words_after_statements();
@@ -589,6 +604,25 @@ class PageReader {
       if (!is_one) continue;
       last = number;
       if (heading) write_network_heading(row, *heading);
+    }
+  }
+
+  /// Puts // before a title in the line below the heading of a network. In a listing in small letters it may be a statement.
+  void make_comments_of_titles() {
+    const auto in_small_letters = [this](const Row& row) {
+      const std::vector<std::string> words = split_words(code_of(row.text));
+      return is_statement(row.text) && std::ranges::any_of(words[0], is_lower);
+    };
+    if (!is_instruction_ || std::ranges::any_of(rows_, in_small_letters)) return;
+    bool after_heading = false;
+    for (Row& row : rows_) {
+      const std::string_view code = trim(code_of(row.text));
+      if (code.empty()) continue;
+      const std::vector<std::string> words = split_words(code);
+      if (after_heading && may_be_title_line(code) && !is_statement(code) && !network_heading(code))
+        row.replace(0, 0, "// ", kComments);
+      after_heading = words.size() == 2 && upper_case(words[0]) == "NETWORK" && is_digit(words[1][0]) &&
+                      trim(row.text).size() == code.size();
     }
   }
 
@@ -788,6 +822,7 @@ void Row::append(std::string_view more, Change change) {
 bool may_need_page(std::string_view line) {
   const std::string_view code = trim(code_of(line));
   if (code.size() < line.size() && trim(line).ends_with('-')) return true;  // a broken comment
+  if (is_network_without_number(code) || may_be_title_line(code)) return true;
   if (code.empty()) return false;
   if (may_have_margin(line) || is_only_letter(code) || network_heading(code) || file_and_line(code) != 0) return true;
   if (!gaps_in_addresses(code).empty() || is_plain_rule(code) || may_have_words(code)) return true;

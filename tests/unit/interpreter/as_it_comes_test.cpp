@@ -101,6 +101,7 @@ TEST(AsItComes, WordsInBracketsAfterAStatementAreAComment) {
                 within("K1") + "\n"));
   }
   EXPECT_EQ(program("LD I0.0 <!-- start -->\n<!-- lamp -->\n= Q0.0\n"), program("LD I0.0 // start\n// lamp\n= Q0.0\n"));
+  EXPECT_EQ(program("LD I0.0 (start) // S1\n= Q0.0\n"), program("LD I0.0 // (start) // S1\n= Q0.0\n"));
   EXPECT_EQ(program("LD I0.0 { start }\n= Q0.0\n"), program("LD I0.0 // start\n= Q0.0\n"));
   EXPECT_FALSE(read("LD I0.0\n= Motor (Q0.0)\n").parsed.diagnostics.empty());  // it may be the address of the symbol
 }
@@ -128,11 +129,14 @@ TEST(AsItComes, ATitleAfterTheNumberOfANetworkIsAComment) {
        {std::pair("Network 1 Motor start", "Network 2 24V supply"), std::pair("NETWORK 1 MOTOR START", "NETWORK 2 LAMP"),
         std::pair("Netzwerk 1 Motor Ein/Aus M1", "Netzwerk 2 Lampe"),
         std::pair("Rede 1 Partida do motor", "Rede 2 Lâmpada de Q0.1"), std::pair("网络1 电机启动", "程序段2 灯"),
-        std::pair("Network No. 1 Pump", "NETWORK2")}) {
+        std::pair("Network No. 1 Pump", "NETWORK2"), std::pair("Network 1, Motor", "Network 2; Lamp")}) {
     const std::string text = program(std::string(first) + "\nLD I0.0\n= Q0.0\n" + second + "\nLD I0.1\n= Q0.1\n");
     EXPECT_EQ(text.find("NETWORK 1 // "), 0U) << text;
     EXPECT_NE(text.find("NETWORK 2"), std::string::npos) << text;
   }
+  EXPECT_EQ(program("NETWORK 1\nMotor start\nLD I0.0\n= Q0.0\n"), program("NETWORK 1\n// Motor start\nLD I0.0\n= Q0.0\n"));
+  EXPECT_EQ(program("NETWORK 1\nLAD Start\n= Q0.0\n").find("//"), std::string::npos);  // a slip for LD
+  EXPECT_EQ(program("network 1\nload start\nld i0.0\n").find("//"), std::string::npos);
   for (const char* line : {"NETWORK 1 STOP", "NETWORK 1 LD I0.0 start", "Netzwerk 1: LD I0.0", "NETWORK 1 = Motor"})
     EXPECT_FALSE(read(std::string(line) + "\nLD I0.0\n= Q0.0\n").parsed.diagnostics.empty()) << line;
 }
