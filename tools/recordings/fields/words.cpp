@@ -72,7 +72,7 @@ bool is_port_of_host(std::string_view name, std::string_view number) {
 bool ends_name(std::string_view word, std::size_t end) {
   constexpr unsigned char kThreeBytes = 0xE0, kFourBytes = 0xF0;
   const auto lead = static_cast<unsigned char>(end >= 3 ? word[end - 3] : 0);
-  return is_any_of(word[end - 1], ":;>,])-|{") || (lead >= kThreeBytes && lead < kFourBytes);
+  return is_any_of(word[end - 1], ":;>,])-|{=") || (lead >= kThreeBytes && lead < kFourBytes);
 }
 
 /// Whether a name and numbers are a sentence with commas, not bytes after a name: `$GPGGA,12,34`, `T;21;35`.
