@@ -66,8 +66,9 @@ class TableFinder {
     const std::vector<std::string> words = words_of_line(line);
     if (words.empty() || line.find_first_not_of("-=+|: \t") == line.npos) return {LineKind::Blank};
     if (words[0] == "NETWORK" || is_instruction_(words[0], words.size() - 1)) return {LineKind::Statement};
-    if (line.size() > kLongestRow) return {};
-    if (stl::is_head_of_symbols(line)) return {LineKind::Head};
+    if (line.size() > kLongestRow || words[0].find_first_not_of("\"'") == std::string::npos) return {};
+    const bool has_cells = words.size() > 1 || line.find_first_of(";|") != line.npos;
+    if (has_cells && stl::is_head_of_symbols(line)) return {LineKind::Head};
     const char begin = stl::trim(line).front();
     const bool begins = stl::is_letter(begin) || std::string_view("_\"|%").find(begin) != std::string_view::npos ||
                         static_cast<unsigned char>(begin) >= 0x80;

@@ -203,13 +203,14 @@ bool has_strokes(std::string_view line, std::string_view sign = {}) {
 
 /// Puts // in place of the signs that the text has comments after. A line of its own is read as such a comment only where
 /// another comment stands after a statement, but for `;` and `--`, which nothing else begins with.
-void rewrite_after_sign(std::vector<std::string>& lines, const Sign& sign, std::vector<bool>& changed) {
-  bool any_sure = false, any_statement = false, is_list = false;
+void rewrite_after_sign(std::vector<std::string>& lines, const Sign& sign, bool any_statement, std::vector<bool>& changed) {
+  const auto has_sign = [&sign](const std::string& line) { return line.find(sign.sign) != line.npos; };
+  if (std::ranges::none_of(lines, has_sign)) return;
+  bool any_sure = false, is_list = false;
   for (const std::string& line : lines) {
     const bool none = has_strokes(line, sign.sign) || sign.where == Where::Alone;
     const auto found = none ? std::nullopt : comment_after(line, sign);
     any_sure |= found && found->sure;
-    any_statement |= looks_like_statement(line);
     if (sign.sign == "*") is_list = is_list || begins_row_of_list(line);
   }
   const bool alone = sign.where != Where::AfterAddress && (any_sure || (any_statement && sign.where != Where::AfterCode));
@@ -272,6 +273,7 @@ void rewrite_brackets_at_end(std::vector<std::string>& lines, std::vector<bool>&
 }  // namespace
 
 bool may_have_foreign_comment(std::string_view line) {
+  line = code_of(line);
   constexpr std::string_view kFirst = ";#'*-!%\\:{([<>|\xEF";
   const bool rem = line.find("REM") != line.npos || line.find("rem") != line.npos || line.find("Rem") != line.npos;
   if (rem) return true;
@@ -279,15 +281,16 @@ bool may_have_foreign_comment(std::string_view line) {
   if (at == line.npos) return false;
   const auto has = [&](std::string_view sign) { return line.find(sign) != line.npos; };
   return has(";") || has("(*") || has("/*") || has("# ") || has("-- ") || has("' ") || has("! ") || has("%% ") ||
-         has("\\\\ ") || has("* ") || has("% ") || has(": ") || has("- ") || has("| ") || has("> ") || has("{ ") ||
-         has("<!--") || comment_in_brackets(line);
+         has("\\\\ ") || has("* ") || has("% ") || has(" : ") || has(" - ") || has(" | ") || has("-> ") || has("=> ") ||
+         has("<- ") || has(":: ") || has("{ ") || has("<!--") || comment_in_brackets(line);
 }
 
 std::vector<bool> rewrite_foreign_comments(std::vector<std::string>& lines) {
   const bool fenced = std::ranges::any_of(lines, is_fence);
   std::vector<bool> changed = BracketReader(lines).run();
+  const bool any_statement = std::ranges::any_of(lines, looks_like_statement);
   for (const Sign& sign : kLineSigns)
-    if (!(fenced && sign.sign == "#")) rewrite_after_sign(lines, sign, changed);
+    if (!(fenced && sign.sign == "#")) rewrite_after_sign(lines, sign, any_statement, changed);
   rewrite_brackets_at_end(lines, changed);
   return std::ranges::find(changed, true) == changed.end() ? std::vector<bool>{} : changed;
 }

@@ -179,6 +179,9 @@ bool is_rule(std::string_view line) {
   return line.find_first_not_of("|-+:= \t") == line.npos && line.find('-') != line.npos;
 }
 
+/// A longer line is no statement with a few words; its words are not looked at one by one.
+constexpr std::size_t kLongestStatement = 300;
+
 /// `Network Comment`
 bool is_network_without_number(std::string_view code) {
   return upper_case(code.substr(0, 8)) == "NETWORK " && code.size() > 8 && is_letter(code[8]);
@@ -187,8 +190,9 @@ bool is_network_without_number(std::string_view code) {
 /// `Motor start`, as people write it below the heading of a network: words in small letters, none of which is an operand.
 bool may_be_title_line(std::string_view code) {
   constexpr std::size_t kShortest = 4, kMostWords = 8;
+  if (code.size() > kLongestStatement) return false;
   const std::vector<std::string> words = split_words(code);
-  return !words.empty() && words.size() <= kMostWords && words[0].size() >= kShortest &&
+  return !words.empty() && words.size() <= kMostWords && words[0].size() >= kShortest && upper_case(words[0]) != "NETWORK" &&
          std::ranges::any_of(words[0], [](char c) { return is_lower(c) || static_cast<unsigned char>(c) >= 0x80; }) &&
          std::ranges::none_of(words, may_be_operand) && code.find_first_of(",|()") == code.npos;
 }
@@ -373,7 +377,7 @@ std::vector<Part> gaps_in_addresses(std::string_view line) {
                                                 "ED", "AB", "AW", "AD", "SMB", "SMW", "SMD", "AIW", "AQW", "AEW", "AAW"};
   std::vector<Part> gaps;
   const std::string_view code = code_of(line);
-  if (code.find_first_of("'\"") != code.npos) return gaps;
+  if (code.size() > kLongestStatement || code.find_first_of("'\"") != code.npos) return gaps;
   std::size_t begin = std::min(code.find_first_not_of(" \t"), code.size());
   begin = std::min(code.find_first_of(" \t", begin), code.size());  // after the mnemonic
   for (std::size_t at = begin; at < code.size();) {
@@ -394,6 +398,13 @@ std::vector<Part> gaps_in_addresses(std::string_view line) {
     at = to;
   }
   return gaps;
+}
+
+/// The words of a line without its comment, in capitals; a comma is a blank.
+std::vector<std::string> words_of_code(std::string_view line) {
+  std::string code = upper_case(code_of(line).substr(0, kLongestStatement));
+  std::ranges::replace(code, ',', ' ');
+  return split_words(code);
 }
 
 Row without_gaps(const Row& row) {
@@ -553,28 +564,25 @@ class PageReader {
     return true;
   }
 
+  /// Whether a line is an instruction with as many operands as it takes.
+  bool takes_as_written(std::string_view line) const {
+    const std::vector<std::string> words = words_of_code(line);
+    return !words.empty() && is_instruction_(words[0], words.size() - 1);
+  }
+
   /// Whether a text can be read as an instruction with its operands.
   bool is_statement(std::string_view text) const {
     constexpr std::size_t kMostOperands = 8, kLongestOfStack = 5;
-    std::string code(code_of(text));
-    std::ranges::replace(code, ',', ' ');
-    const std::vector<std::string> words = split_words(upper_case(code));
+    const std::vector<std::string> words = words_of_code(text);
     if (words.empty()) return false;
     if (!is_instruction_)
       return looks_like_statement(text) ||
-             (words.size() == 1 && words[0].size() <= kLongestOfStack && trim(code) == words[0]);
+             (words.size() == 1 && words[0].size() <= kLongestOfStack && trim(code_of(text)) == words[0]);
     if (is_instruction_(words[0], words.size() - 1)) return true;
+    if (!looks_like_statement(text)) return false;
     bool any = false;
     for (std::size_t operands = 0; operands <= kMostOperands; ++operands) any = any || is_instruction_(words[0], operands);
-    return any && looks_like_statement(text);
-  }
-
-  /// Whether a line is an instruction with as many operands as it takes.
-  bool takes_as_written(std::string_view line) const {
-    std::string code(code_of(line));
-    std::ranges::replace(code, ',', ' ');
-    const std::vector<std::string> words = split_words(upper_case(code));
-    return !words.empty() && is_instruction_(words[0], words.size() - 1);
+    return any;
   }
 
   /// Whether a line that may be a heading or the beginning of a sentence is a heading: a statement follows, or it has the
@@ -629,7 +637,9 @@ class PageReader {
   /// Where words follow a whole statement, and can be neither its operands nor a statement: `LD I0.0 Start button`.
   std::optional<std::size_t> words_after_statement(std::string_view line) const {
     const std::string_view code = trim_end(code_of(line));
-    if (code.size() < trim_end(line).size() || code.find_first_of("'\"|") != code.npos || takes_as_written(code)) return {};
+    const bool has_comment = code.size() < trim_end(line).size();
+    if (has_comment || code.size() > kLongestStatement || code.find_first_of("'\"|") != code.npos || takes_as_written(code))
+      return {};
     for (Part gap = gap_after_operand(code, 0); gap.to < code.size(); gap = gap_after_operand(code, gap.to)) {
       const std::string_view text = code.substr(gap.to), first = text.substr(0, text.find_first_of(" \t"));
       const bool is_word = is_letter(text.front()) || static_cast<unsigned char>(text.front()) >= 0x80;
