@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "interpreter/base/text/text.hpp"
@@ -78,7 +79,15 @@ class TableFinder {
     const stl::Symbol& row = symbol.source.symbols.front();
     const bool is_address = row.value && !std::holds_alternative<stl::Integer>(*row.value);
     if (!is_address && line.find('=') == line.npos) return {};  // `In network 1`
-    return {LineKind::Row, stl::upper_case(row.name)};
+    std::string name = stl::upper_case(row.name);
+    return is_mnemonic(name) ? ReadLine{} : ReadLine{LineKind::Row, std::move(name)};  // `LD: I0.0`, `LD I0.0 I0.1`
+  }
+
+  bool is_mnemonic(std::string_view name) const {
+    constexpr std::size_t kMostOperands = 8;
+    for (std::size_t operands = 0; operands <= kMostOperands; ++operands)
+      if (is_instruction_(name, operands)) return true;
+    return false;
   }
 
   /// Takes the table that begins in a line if it is one. Returns its last line.

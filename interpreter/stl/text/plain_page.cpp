@@ -646,7 +646,9 @@ class PageReader {
       if (!is_word || code[gap.from - 1] == ',' || first.ends_with(',') ||
           looks_like_statement(fmt::format("LD {}", first)) || is_statement(text))
         continue;
-      if (takes_as_written(code.substr(0, gap.from))) return gap.to;
+      const std::string_view statement = code.substr(0, gap.from);
+      const bool apart = gap.to - gap.from > 1 || code[gap.from] == '\t';  // `A page of text` is no statement
+      if (takes_as_written(statement) && (apart || looks_like_statement(statement))) return gap.to;
     }
     return {};
   }

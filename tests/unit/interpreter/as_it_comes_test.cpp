@@ -121,6 +121,7 @@ TEST(AsItComes, WordsAfterADashOrFarFromTheirStatementAreAComment) {
             program("LD I0.0 // Start button\nAN I0.1 // Stop button\n= Q0.0 // Pump\n"));
   EXPECT_EQ(stl::to_text(read("LD E0.0   Taster Ein\nUN E0.1   Taster Aus\n= A0.0   K1\n").parsed.source),
             stl::to_text(read("LD E0.0 // Taster Ein\nUN E0.1 // Taster Aus\n= A0.0 // K1\n").parsed.source));
+  EXPECT_EQ(program("A page of text.\nA page of text.\nLD I0.0\n= Q0.0\n"), program("LD I0.0\n= Q0.0\n"));
   EXPECT_EQ(program("LD I0.0\nA I0.1 Stop\n= Q0.0\n"), program("LD I0.0\nA I0.1, Stop\n= Q0.0\n"));  // only one
 }
 
@@ -206,6 +207,8 @@ TEST(AsItComes, ATableOfSymbolsBesideItsProgramIsRead) {
       EXPECT_FALSE(source.parsed.notes.empty()) << table;
     }
   EXPECT_EQ(read(code + "FROB I0.0\n").parsed.source.symbols.size(), 0U);  // nothing is called so
+  for (const char* line : {"LD: I0.0", "LD I0.0 I0.1 !"})                  // a slip in a statement is no symbol
+    EXPECT_FALSE(read("LD SM0.0\n" + std::string(line) + "\n= Q0.0\n").parsed.diagnostics.empty()) << line;
   EXPECT_EQ(read("In network 1 the motor is started.\n" + code).parsed.source.symbols.size(), 0U);
 }
 

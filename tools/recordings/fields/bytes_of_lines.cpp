@@ -135,7 +135,10 @@ void BytesOfLines::take_apart(std::string_view line) {
     Word word{.text = line.substr(begin, end - begin), .begin = begin, .first_byte = bytes_.size()};
     begin = begin_of_word(line, end);
     bool any = !(in_pairs && is_of_a_language(word.text)) && append_bytes(bytes_, word.text);
-    if (const std::size_t name = any ? 0 : length_of_name(word.text); name > 0)
+    std::size_t name = any ? 0 : length_of_name(word.text);
+    if (name > 0 && word.text[name - 1] == '=' && !bytes_of_text(line.substr(begin, end_of_word(line, begin) - begin)))
+      name = 0;  // `data=42` alone is a figure
+    if (name > 0)
       if ((any = append_bytes(bytes_, word.text.substr(name)))) {
         words_.push_back({.text = word.text.substr(0, name), .begin = word.begin});
         word.text.remove_prefix(name);
