@@ -114,7 +114,7 @@ Result<LineRecording> read_json_lines(std::string_view bytes, const ReadingChoic
 
 /// Recognises records of YAML by a row of a list that is a map, or by several documents, with bytes.
 bool looks_like_yaml_records(std::string_view bytes);
-std::optional<LineRecording> read_yaml_records(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+Result<LineRecording> read_yaml_records(std::string_view bytes, const ReadingChoices& choices);
 
 /// Recognises key-value lines by a line with several pairs, one of which has bytes.
 bool looks_like_key_values(std::string_view bytes);

@@ -7,9 +7,8 @@ namespace s7200::tools::records_test {
 namespace {
 
 LineRecording recording_of(const std::string& bytes) {
-  std::string why;
-  auto recording = read_recording(bytes, {}, why);
-  EXPECT_TRUE(recording) << why << '\n' << bytes;
+  auto recording = read_recording(bytes, {});
+  EXPECT_TRUE(recording) << recording.why() << '\n' << bytes;
   return recording.value_or(LineRecording{});
 }
 
@@ -75,8 +74,7 @@ TEST(AtCommands, TheirParametersAreTheBytes) {
            "at+txh=\"010300000002C40B\"\n+EVT:RX,\"010304000A0014DA3E\"\n",
        })
     EXPECT_EQ(texts(text), kConversation) << text;
-  std::string why;
-  EXPECT_FALSE(read_recording("AT+CONF=01020304,05060708\nOK\n", {}, why));  // which of them?
+  EXPECT_FALSE(read_recording("AT+CONF=01020304,05060708\nOK\n", {}));  // which of them?
 }
 
 TEST(TablesOfCharacters, NeedNoNamesInAnyOrder) {
@@ -165,11 +163,10 @@ TEST(TablesOfExchanges, AColumnOfStationsIsNoAnswer) {
 }
 
 TEST(OtherProducts, TheirProgramsAreNamedWhereNoFrameIs) {
-  std::string why;
-  EXPECT_FALSE(read_recording("LOGO! Soft Comfort V8.3\nQ1 -- M1\n", {}, why));
-  EXPECT_EQ(why.substr(0, 34), "it is about LOGO!, not the S7-200;");
-  EXPECT_FALSE(read_recording("<Document>\n<SW.Blocks.FC ID=\"0\"></SW.Blocks.FC>\n</Document>\n", {}, why));
-  EXPECT_EQ(why.substr(0, 29), "it is a block of TIA Portal f");
+  EXPECT_EQ(read_recording("LOGO! Soft Comfort V8.3\nQ1 -- M1\n", {}).why().substr(0, 34),
+            "it is about LOGO!, not the S7-200;");
+  EXPECT_EQ(read_recording("<Document>\n<SW.Blocks.FC ID=\"0\"></SW.Blocks.FC>\n</Document>\n", {}).why().substr(0, 29),
+            "it is a block of TIA Portal f");
   EXPECT_EQ(texts("LOGO! as master\nTX 01 03 00 00 00 02 C4 0B\nRX 01 03 04 00 0A 00 14 DA 3E\n"), kConversation);
 }
 

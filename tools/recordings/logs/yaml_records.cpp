@@ -293,7 +293,7 @@ bool looks_like_yaml_records(std::string_view bytes) {
   return frames > others;
 }
 
-std::optional<LineRecording> read_yaml_records(std::string_view bytes, const ReadingChoices& choices, std::string&) {
+Result<LineRecording> read_yaml_records(std::string_view bytes, const ReadingChoices& choices) {
   NamedFieldsReader reader;
   YamlRecords(bytes, choices.stop)
       .read([&](const NamedFields& fields, std::size_t number) { reader.take(fields, "", number); },

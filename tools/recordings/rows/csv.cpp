@@ -268,10 +268,9 @@ std::optional<Columns> columns_of_characters(TableRows rows) {
     }
   }
   if (count < kFewestRows) return {};
-  std::string why;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const Notation* const notation = columns[i].notation.found(why);
-    const bool characters = notation != nullptr && columns[i].notation.are_characters(*notation);
+    const auto notation = columns[i].notation.found();
+    const bool characters = notation && columns[i].notation.are_characters(*notation);
     std::optional<std::size_t>& column = columns[i].times        ? found.time
                                          : columns[i].directions ? found.direction
                                                                  : found.data;
