@@ -14,10 +14,8 @@ enum UnitEvent : std::uint8_t {
   kTick1ms,
   kPulse0,
   kPulse1,
-  kMessageTimer0,
-  kMessageTimer1,
-  kNetworkTimer0,
-  kNetworkTimer1
+  kMessageTimer0,  // one for each port, and so the next
+  kNetworkTimer0 = kMessageTimer0 + kPorts.size()
 };
 
 /// Each function goes through the rows of the table, from first to last.

@@ -63,8 +63,6 @@ constexpr Rung kReadSecond {                          .stack = {.needs = 2, .cha
 // What is read and written besides operands, at most. The numbers of special memory are those of all ports, counters and outputs.
 using AllBesides = decltype(Instruction::besides);
 constexpr Besides kStatusByte   {sm::kInterruptStatus, 1, Role::InOut}, kLocalMemory{image::kL, image::kConstants - image::kL, Role::Out};
-constexpr Besides kMessageEnd0 {sm::byte(86), 1, Role::InOut},         kMessageEnd1{sm::byte(186), 1, Role::InOut};
-constexpr Besides kHowToReceive0{sm::byte(87), 8, Role::In},           kHowToReceive1{sm::byte(187), 8, Role::In};
 constexpr Besides kCounters0To2{sm::byte(36), 30, Role::InOut},        kCounters3To5{sm::byte(136), 30, Role::InOut}, kCounts{image::kHC, 24, Role::InOut};
 constexpr Besides kPulses      {sm::byte(66), 20, Role::InOut},        kProfiles   {sm::byte(166), 20, Role::InOut}, kSegmentTables{image::kV, image::kL - image::kV, Role::In};
 
@@ -74,7 +72,14 @@ constexpr AllBesides kChangesLevel {{kLocalMemory}};  // of another routine
 constexpr AllBesides kReturning    {{kLocalMemory, {image::kAC, 16, Role::Out}, {sm::kFlags, 1, Role::Out}}};
 constexpr AllBesides kEnabling     {{kStatusByte}};
 constexpr AllBesides kSending      {{kStatusByte}};
-constexpr AllBesides kReceiving    {{kStatusByte, kMessageEnd0, kMessageEnd1, kHowToReceive0, kHowToReceive1}};
+constexpr AllBesides kReceiving    = [] {
+  AllBesides all{kStatusByte};
+  for (std::size_t port = 0; port < kPorts.size(); ++port) {
+    all[1 + port] = {kPorts[port].message, 1, Role::InOut};
+    all[1 + kPorts.size() + port] = {kPorts[port].message + sm::message::kControl, 8, Role::In};
+  }
+  return all;
+}();
 constexpr AllBesides kCounting     {{kCounters0To2, kCounters3To5, kCounts}};
 constexpr AllBesides kPulsing      {{kCounters0To2, kCounters3To5, kCounts, kPulses, kProfiles, kSegmentTables, {image::kOutputs, 1, Role::InOut}}};
 

@@ -36,19 +36,24 @@ Result<std::uint8_t> parse_station(std::string_view text, const CpuModel&) {
   return trouble("'{}' is not a PPI station from 1 to {}", stl::shortened(text), ppi::kLastStation);
 }
 
-/// Calls a function for one value of each port, or for two that are apart: port 0 and port 1.
+/// Calls a function for each value of a list: those of port 0, port 1 and so on. The last is also that of the ports after it.
 template <class Each>
 Result<std::array<Each, kPorts.size()>> parse_ports(std::string_view text, const CpuModel& model, std::string_view what,
                                                     Result<Each> (*parse)(std::string_view, const CpuModel&)) {
-  const std::size_t comma = text.find(',');
-  const auto first = parse(stl::trim(text.substr(0, comma)), model);
-  if (!first) return first.trouble();
-  if (comma == std::string_view::npos) return std::array{*first, *first};
-  if (model.ports < kPorts.size())
-    return trouble("CPU {} has no port 1 for the second {}; a second port needs {}", model.name, what, to_text(kTwoPorts));
-  const auto second = parse(stl::trim(text.substr(comma + 1)), model);
-  if (!second) return second.trouble();
-  return std::array{*first, *second};
+  constexpr std::array kOrder{"first", "second", "third", "fourth"};
+  std::array<Each, kPorts.size()> values{};
+  std::size_t port = 0;
+  for (std::size_t begin = 0; begin <= text.size(); ++port) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    if (port > 0 && port >= model.ports)
+      return trouble("CPU {} has no port {} for the {} {}{}", model.name, port, kOrder.at(port), what,
+                     port == 1 ? "; a second port needs " + to_text(kTwoPorts) : "");
+    const auto value = parse(stl::trim(text.substr(begin, end - begin)), model);
+    if (!value) return value.trouble();
+    std::fill(values.begin() + static_cast<std::ptrdiff_t>(port), values.end(), *value);
+    begin = end + 1;
+  }
+  return values;
 }
 
 bool contains(const RetentiveRange& whole, const RetentiveRange& part) {

@@ -267,6 +267,8 @@ TEST(PpiRates, AreThoseOfTheCpu) {
   EXPECT_EQ(why, "'38400' is not a rate of PPI; write 9600, 19200 or, on CPU 22x, 187500");
   EXPECT_EQ(rates("9600,19200", cpu214()), PpiRates{});
   EXPECT_EQ(why, "CPU 214 has no port 1 for the second rate; a second port needs CPU 216, 224XP, 226, 226r1 or 226XM");
+  EXPECT_EQ(rates("9600,19200,9600", cpu226()), PpiRates{});
+  EXPECT_EQ(why, "CPU 226 has no port 2 for the third rate");
   EXPECT_EQ(rates("9600,", cpu226()), PpiRates{});
   EXPECT_EQ(to_text(PpiRates{9600, 19200}), "9600,19200");
   EXPECT_EQ(to_text(PpiRates{19200, 19200}), "19200");
