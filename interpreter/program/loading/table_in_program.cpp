@@ -83,9 +83,10 @@ class TableFinder {
     return is_mnemonic(name) ? ReadLine{} : ReadLine{LineKind::Row, std::move(name)};  // `LD: I0.0`, `LD I0.0 I0.1`
   }
 
+  /// Whether a name is a mnemonic with operands, so that an address after it may be one: `LD`, but not `STOP`.
   bool is_mnemonic(std::string_view name) const {
     constexpr std::size_t kMostOperands = 8;
-    for (std::size_t operands = 0; operands <= kMostOperands; ++operands)
+    for (std::size_t operands = 1; operands <= kMostOperands; ++operands)
       if (is_instruction_(name, operands)) return true;
     return false;
   }

@@ -209,6 +209,7 @@ TEST(AsItComes, ATableOfSymbolsBesideItsProgramIsRead) {
   EXPECT_EQ(read(code + "FROB I0.0\n").parsed.source.symbols.size(), 0U);  // nothing is called so
   for (const char* line : {"LD: I0.0", "LD I0.0 I0.1 !"})                  // a slip in a statement is no symbol
     EXPECT_FALSE(read("LD SM0.0\n" + std::string(line) + "\n= Q0.0\n").parsed.diagnostics.empty()) << line;
+  EXPECT_EQ(read("LD Start\nAN Stop\n= Q0.0\n\nStart = I0.0\nStop = I0.1\n").parsed.source.symbols.size(), 2U);
   EXPECT_EQ(read("In network 1 the motor is started.\n" + code).parsed.source.symbols.size(), 0U);
 }
 
