@@ -60,7 +60,7 @@ ROOMS = {
     "tools/trials": CORE + ["tools/views", "tools/coverage", "tools/scenario"],
     "tools/compare": CORE + ["tools/views", "tools/scenario", "tools/trials"],
     "tools/fuzzing": CORE + ["tools/views", "tools/scenario", "tools/trials"] + SESSION,
-    "tools/recordings": CORE + ["tools/views", "tools/json", "tools/scenario"],
+    "tools/recordings": CORE + ["tools/views", "tools/json", "tools/yaml", "tools/scenario"],
     "tools/faces/files": ["interpreter/base", "tools/host", "tools/session/commands"],
     "tools/faces/console": CORE + ["tools/host", "tools/views", "tools/plan", "tools/rig"] + COMMANDS,
     "tools/faces/dap": CORE + ["tools/host", "tools/views", "tools/json", "tools/plan", "tools/rig"] + COMMANDS,
