@@ -83,7 +83,9 @@ std::size_t list_mark(std::string_view line) {
 
 bool stands_without_mark(std::string_view line) {
   const std::string_view code = trim(code_of(line));
-  return code.empty() || upper_case(code.substr(0, 7)) == "NETWORK" || routine_heading(code);
+  if (code.empty() || upper_case(code.substr(0, 7)) == "NETWORK" || routine_heading(code)) return true;
+  const auto heading = network_heading(code);
+  return heading && heading->sure;
 }
 
 /// A word with letters and digits, or signs that text does not have.
@@ -760,39 +762,47 @@ class PageReader {
     return false;
   }
 
-  /// Leaves out line numbers that rise; below a heading they may begin anew.
+  /// Leaves out line numbers that rise; below a heading they may begin anew. Where none is missing, the head of a page may
+  /// stand between them.
   bool leave_out_numbers() {
     std::vector<std::size_t> bytes;
-    std::optional<std::uint32_t> last;
+    std::optional<std::uint32_t> last, before;
     std::size_t numbered = 0, statements = 0;
+    bool none_missing = true;
     for (const Row& row : rows_) {
       const auto number = line_number(row.text);
       bytes.push_back(number ? number->bytes : 0);
       if (number && last && number->number <= *last) return false;
+      if (number) none_missing = none_missing && (!before || number->number == *before + 1);
       if (number)
-        last = number->number;
+        last = before = number->number;
       else if (!trim(row.text).empty())
         last.reset();
       numbered += number ? 1U : 0U;
       statements += number && !number->alone && row.text[number->bytes] != '/' ? 1U : 0U;
     }
-    return numbered >= 2 && statements > 0 && leave_out_marked(bytes, kLineNumbers);
+    return numbered >= 2 && statements > 0 && leave_out_marked(bytes, kLineNumbers, none_missing);
   }
 
-  /// Leaves out the first bytes of each row; 0: the row has no mark.
-  bool leave_out_marked(const std::vector<std::size_t>& bytes, Change change) {
+  /// Leaves out the first bytes of each row; 0: the row has no mark. Text without marks stands around these rows, and
+  /// between them only if it `may_interrupt`; then a row that names a routine is no text: it may be a heading.
+  bool leave_out_marked(const std::vector<std::size_t>& bytes, Change change, bool may_interrupt = false) {
     const auto is_marked = [](std::size_t each) { return each > 0; };
     const auto begin = static_cast<std::size_t>(std::ranges::find_if(bytes, is_marked) - bytes.begin());
     const auto end = static_cast<std::size_t>(std::find_if(bytes.rbegin(), bytes.rend(), is_marked).base() - bytes.begin());
     if (begin >= end) return false;
+    const auto names_routine = [may_interrupt](std::string_view text) {
+      return may_interrupt && std::ranges::any_of(split_words(text),
+                                                  [](const std::string& word) { return default_routine(word).has_value(); });
+    };
     std::size_t marked = 0, statements = 0;
     bool has_text = false;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const std::string_view text = rows_[i].text;
       marked += bytes[i] > 0 ? 1U : 0U;
       statements += bytes[i] > 0 && looks_like_statement(text.substr(bytes[i])) ? 1U : 0U;
-      if (bytes[i] > 0 || stands_without_mark(text)) continue;
-      if ((i >= begin && i < end) || looks_like_statement(text)) return false;
+      if (bytes[i] > 0 || stands_without_mark(text) || names_routine(text)) continue;
+      if ((i >= begin && i < end && !may_interrupt) || looks_like_statement(text)) return false;
       has_text = true;
     }
     constexpr std::size_t kEachSo = 3;  // so many marked lines to one that surely is a statement, where there is text around
@@ -800,7 +810,7 @@ class PageReader {
     for (std::size_t i = 0; i < rows_.size(); ++i)
       if (bytes[i] > 0)
         rows_[i].leave_out_beginning(bytes[i], change);
-      else if (!stands_without_mark(rows_[i].text))
+      else if (!stands_without_mark(rows_[i].text) && !(i > begin && i < end && names_routine(rows_[i].text)))
         leave_out_around(rows_[i], change);
     return true;
   }

@@ -146,6 +146,17 @@ TEST(PlainText, LineNumbersAreLeftOutIfAllLinesHaveThem) {
   EXPECT_TRUE(read("VB0 1\n2 // more\n3 // values\n").parsed.notes.empty());
 }
 
+TEST(PlainText, HeadingsInOtherLanguagesAndHeadsOfPagesStandBetweenLineNumbers) {
+  const std::string plain = program("NETWORK 1\nLD I0.0\n= Q0.0\nNETWORK 2\nLD I0.1\n= Q0.1\n");
+  EXPECT_EQ(program("网络 1\n 1  LD  I0.0\n 2  =   Q0.0\n网络 2\n 3  LD  I0.1\n 4  =   Q0.1\n"), plain);
+  EXPECT_EQ(program("Netzwerk 1\n1 LD I0.0\n2 = Q0.0\nNetzwerk 2\n3 LD I0.1\n4 = Q0.1\n"), plain);
+  const std::string paged = "Network 1\n1 LD I0.0\n2 = Q0.0\nS7-200 Handbook    page 13\nNetwork 2\n3 LD I0.1\n4 = Q0.1\n";
+  EXPECT_EQ(program(paged), program("NETWORK 1\nLD I0.0\n= Q0.0\n\nNETWORK 2\nLD I0.1\n= Q0.1\n"));
+  EXPECT_NE(note(paged).find("line 4"), std::string::npos) << "what is left out is named: " << note(paged);
+  const std::string routine = "Network 1\n1 LD I0.0\n2 = Q0.0\n中断程序 INT_0\nNetwork 1\n3 LD I0.1\n4 = Q0.1\n";
+  EXPECT_EQ(note(routine).find("left out"), std::string::npos) << "what names a routine is no text: " << note(routine);
+}
+
 TEST(PlainText, MarginsOfMailAndListsAreLeftOut) {
   EXPECT_EQ(program("> LD I0.0\n> = Q0.0\n>\n"), program("LD I0.0\n= Q0.0\n\n"));
   EXPECT_EQ(program("• LD I0.0\n• = Q0.0\n"), program("LD I0.0\n= Q0.0\n"));
