@@ -46,6 +46,13 @@ constexpr std::string_view kRungs =
     "= Q0.6\n"
     "MEND\n";
 
+TEST(WhyNot, AnInputThatTwoContactsLookAtChangesOnce) {
+  AtPrompt session(on_cpu224("LD I0.0\nA I0.1\nS Q0.0, 1\nLD I0.2\nON I0.1\nR Q0.0, 1\n"));
+  session("input I0.0=1; scan 3");
+  const std::string text = session("why not Q0.0");
+  EXPECT_TRUE(has(text, "  1 contact has to change:\n    I0.1 is 0 ")) << text;
+}
+
 TEST(WhyNot, TheFewestContactsThatWouldHaveToChangeComeFirst) {
   AtPrompt session(on_cpu224(kRungs));
   session("continue 20ms; input I0.2=1 I0.3=1; scan 3");

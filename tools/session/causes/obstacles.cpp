@@ -170,10 +170,7 @@ void Obstacles::add_ways(Obstacle& to, const std::vector<Conditions>& ways) {
   }
   const std::size_t shown = std::min(fewest.size(), open_.size() > 1 ? std::size_t{2} : kMostWays);
   for (std::size_t i = 0; i < shown; ++i) {
-    const std::size_t count = fewest[i].size();
-    Obstacle way{.kind = "ways",
-                 .text = fmt::format("{}{} {} to change:", i == 0 ? "" : "or ", counted(count, "contact"),
-                                     count == 1 ? "has" : "have")};
+    Obstacle way{.kind = "ways"};
     for (const Condition& condition : fewest[i]) {
       Obstacle one = of_condition(condition);
       const auto is_same = [&](const Obstacle& other) {
@@ -181,6 +178,8 @@ void Obstacles::add_ways(Obstacle& to, const std::vector<Conditions>& ways) {
       };
       if (std::ranges::none_of(way.because, is_same)) way.because.push_back(std::move(one));
     }
+    const std::size_t count = way.because.size();  // an input that two contacts look at changes once
+    way.text = fmt::format("{}{} {} to change:", i == 0 ? "" : "or ", counted(count, "contact"), count == 1 ? "has" : "have");
     to.because.push_back(std::move(way));
   }
   if (fewest.size() > shown)
