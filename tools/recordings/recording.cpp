@@ -134,6 +134,8 @@ std::string_view log_in_utf8(std::string_view bytes, std::string& decoded) {
   return text ? decoded = std::move(text->text) : bytes;
 }
 
+constexpr std::string_view kIsOfStep7 =
+    "it is a block of STEP 7 for the S7-300 and S7-400, neither a recording nor STL of the S7-200";
 constexpr std::string_view kIsProgram = "it is a program in STL, not a recording; s7200 check reads it, s7200 run runs it";
 
 /// A mnemonic with an operand, or one that cannot be hex; or the heading of a network or a block.
@@ -202,7 +204,7 @@ struct OtherText {
   std::string_view why;
 };
 constexpr std::array kOtherTexts{
-    OtherText{begins_as_step7, kIsProgram},
+    OtherText{begins_as_step7, kIsOfStep7},
     OtherText{is_stl_program, kIsProgram},
     OtherText{is_of_can, "it is a recording of a CAN bus, not of a serial line"},
     OtherText{is_xml, "it is XML; write a line for each frame, with its time, its direction and its bytes in hex"},

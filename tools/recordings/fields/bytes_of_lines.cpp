@@ -80,11 +80,10 @@ std::optional<BytesInLine> BytesOfLines::among_words(std::string_view line) {
 
 /// Bytes of which the last two have a name: `01 03 … CRC: E4 09`. They may be those of the frame once more.
 std::optional<BytesInLine> BytesOfLines::bytes_with_name_of_crc() const {
-  constexpr std::array<std::string_view, 5> kNames{"CRC", "CRC16", "LRC", "CHECKSUM", "CHK"};
   const auto is_name = [&](const Word& word) {
     const std::string_view name = word.text.substr(0, word.text.find_last_not_of(":=([") + 1);
     return word.bytes == 0 && is_any_of(word.text.front(), "CcLl") &&
-           std::ranges::find(kNames, stl::upper_case(name)) != kNames.end();
+           is_name_of_check_sum(name);
   };
   const auto name = std::ranges::find_if(words_, is_name);
   if (name == words_.end() || name == words_.begin()) return {};

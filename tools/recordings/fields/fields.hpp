@@ -43,6 +43,9 @@ std::size_t length_of_index(std::string_view text);
 /// The length of a unit, by the first word of a column's name that is one: `Time [ms]`, `time_us`.
 std::optional<Time> unit_of(std::string_view name);
 
+/// Whether a word is what tools call the check sum of a frame, in any case: CRC, CRC16, LRC, CHECKSUM or CHK.
+bool is_name_of_check_sum(std::string_view word);
+
 /// Whether the name of a column says that it has times, in one of several languages: `Time [s]`, `Zeit`.
 bool is_name_of_time(std::string_view name);
 

@@ -203,6 +203,11 @@ std::string_view without_comment(std::string_view line) {
   return line.substr(0, end_of_bytes_before_comment(line));
 }
 
+bool is_name_of_check_sum(std::string_view word) {
+  static constexpr std::array<std::string_view, 5> kNames{"CRC", "CRC16", "LRC", "CHECKSUM", "CHK"};
+  return std::ranges::find(kNames, stl::upper_case(word)) != kNames.end();
+}
+
 bool is_of_a_language(std::string_view word) { return word.size() > 2 && std::ranges::all_of(word, is_letter); }
 
 std::size_t length_of_name(std::string_view word) {

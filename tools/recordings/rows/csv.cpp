@@ -118,14 +118,13 @@ void find_columns_of_bytes(const std::vector<std::string>& names, Columns& colum
 void find_columns_of_parts(const std::vector<std::string>& names, Columns& columns) {
   static constexpr std::array<std::string_view, 7> kStations{"ADDR", "ADDRESS", "STATION", "SLAVE", "UNIT", "ID", "DEVICE"};
   static constexpr std::array<std::string_view, 5> kFunctions{"FUNC", "FUNCTION", "FC", "FUNCTION CODE", "CODE"};
-  static constexpr std::array<std::string_view, 5> kSums{"CRC", "CRC16", "CHECKSUM", "CHK", "LRC"};
   const auto is_any = [&](std::size_t i, const auto& words) {
     return std::ranges::find(words, stl::upper_case(stl::trim(names[i]))) != words.end();
   };
   for (std::size_t i = 0; i + 3 < names.size(); ++i) {
     if (!is_any(i, kStations) || !is_any(i + 1, kFunctions)) continue;
     std::size_t sum = i + 2;
-    while (sum < names.size() && !is_any(sum, kSums)) ++sum;
+    while (sum < names.size() && !is_name_of_check_sum(stl::trim(names[sum]))) ++sum;
     if (sum == names.size()) continue;
     columns.data = i;
     columns.byte_columns = sum + 1 - i;

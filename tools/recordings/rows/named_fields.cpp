@@ -60,8 +60,6 @@ constexpr std::array kNames{
     Name{"nr", Holds::Nothing},
     Name{"id", Holds::Nothing},
     Name{"index", Holds::Nothing},
-    Name{"crc", Holds::Nothing},
-    Name{"checksum", Holds::Nothing},
     Name{"base64", Holds::Data},
     Name{"b64", Holds::Data},
 };
@@ -86,6 +84,7 @@ FieldMeaning meaning_of(std::string_view name) {
   for (const std::string& word : stl::split_words(words)) {
     const auto known = std::ranges::find(kNames, word, &Name::word);
     if (known != kNames.end()) meaning.holds = known->holds;
+    if (is_name_of_check_sum(word)) meaning.holds = FieldMeaning::Holds::Nothing;
     meaning.base64 |= says_base64(word);
   }
   return meaning;
@@ -214,7 +213,7 @@ Parts parts_in(const NamedFields& fields) {
       take(field, 1, parts.station);
     else if (name == "fc" || name == "func" || name == "function")
       take(field, 1, parts.function);
-    else if (name == "crc" || name == "crc16" || name == "checksum")
+    else if (is_name_of_check_sum(name))
       take(field, 2, parts.sum);
   }
   return parts;
