@@ -369,7 +369,7 @@ bool is_comparison_without_relation(std::string_view mnemonic) {
 constexpr const char* kNetworkTakes = "NETWORK takes a number and nothing else";
 constexpr const char* kTitleOfNetwork = "a title is written as a comment: NETWORK 1 // title";
 
-/// Headings with letters beyond ASCII, and how they are written here.
+/// Headings in other languages, and how they are written here.
 struct ForeignHeading {
   std::string_view word, of, hint;
 };

@@ -80,8 +80,7 @@ struct Fault {
   std::optional<Time> from;                ///< at an instant, since the injection, instead of in an exchange
   Time lasts = kNever;
 
-  // share of the bits that are inverted
-  double error_rate = 0;         ///< of bits
+  double error_rate = 0;         ///< share of the bits that are inverted
   std::int32_t clock_error = 0;  ///< millionths; positive: the station is too fast
   Station station = Station::Master;
   Length length;

@@ -222,7 +222,7 @@ void find_missing_receive_event(const Facts& facts, stl::Diagnostics& diagnostic
 
 namespace {
 
-/// The first instruction that puts a port in Freeport mode. Interrupt routines cannot (error 009A).
+/// The first instruction that puts a port in Freeport mode. Interrupt routines cannot enter it (error 009A).
 std::optional<std::uint32_t> first_freeport(const Program& program, const PortInfo& port) {
   bool in_interrupt = false;
   for (std::uint32_t i = 0; i < program.ops.size(); ++i) {

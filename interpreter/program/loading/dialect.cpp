@@ -263,7 +263,7 @@ bool is_own(const CodeLine& line) {
 /// `LD I0.0`: STEP 7 has no LD, so that a text with it is none of STEP 7, whatever blanks its addresses have.
 bool is_load(const CodeLine& line) { return is_among(line.word(0), {"LD", "LDN"}) && line.words.size() > 1; }
 
-/// The message for a dialect, and the place where it showed first.
+/// How much speaks for a dialect, by the weights of its signs, and the place of the first.
 struct Evidence {
   int weight = 0, strongest = 0;
   stl::Position first{};

@@ -1,4 +1,5 @@
-// Programs in another language, or for another family of controllers, that are taken for STL of the S7-200.
+// Programs in another language, or for another family of controllers, that are taken for STL of the S7-200, and texts of
+// other products.
 #pragma once
 
 #include <optional>
@@ -16,7 +17,7 @@ std::optional<stl::Diagnostic> other_dialect(std::string_view text);
 /// Whether the first line of code is the head of a block of STEP 7 for the S7-300 and S7-400: `DATA_BLOCK DB 10`.
 bool begins_as_step7(std::string_view text);
 
-/// The product whose programming software has written a text, and what to do; empty if none is known.
+/// Texts that are no STL of any kind. The product whose programming software has written a text, and what to do; empty if none is known.
 std::string_view why_other_product(std::string_view text);
 
 }  // namespace s7200

@@ -17,10 +17,10 @@ namespace {
 struct Sign {
   std::string_view sign;
   enum class Where : std::uint8_t {
-    Anywhere,     ///< also a line of its own where no such comment stands after a statement
-    AfterCode,    ///< and a line of its own only where one does
-    Alone,        ///< in a line of its own
-    AfterAddress  ///< after a statement that ends with an address or a number
+    Anywhere,     ///< it begins comments after statements, and lines that are comments
+    AfterCode,    ///< the same, but such lines only in texts that have the sign after a statement, too
+    Alone,        ///< it begins lines that are comments
+    AfterAddress  ///< it begins comments after a statement that ends with an address or a number
   } where;
   bool needs_blank = true;
 };
@@ -202,7 +202,7 @@ bool has_strokes(std::string_view line, std::string_view sign = {}) {
 }
 
 /// Puts // in place of the signs that the text has comments after. A line of its own is read as such a comment only where
-/// another comment stands after a statement, but for `;` and `--`, which nothing else begins with.
+/// another comment stands after a statement, or where the sign says otherwise.
 void rewrite_after_sign(std::vector<std::string>& lines, const Sign& sign, bool any_statement, std::vector<bool>& changed) {
   const auto has_sign = [&sign](const std::string& line) { return line.find(sign.sign) != line.npos; };
   if (std::ranges::none_of(lines, has_sign)) return;

@@ -1,7 +1,6 @@
-// Comments as other languages and editors write them: `(* … *)`, `/* … */`, `<!-- … -->`, `{ … }`; to the end of the line
-// after
-// `;`, `--`, `#`, `'`, `!`, `%%`, `REM` or two backslashes; in lines of their own after `*`, `%` or `::`; and in brackets
-// after a statement, `LD I0.0 (start)`. They become comments with //, and code keeps its columns.
+// Comments as other languages and editors write them: `(* … *)`, `/* … */`, `<!-- … -->`, `{ … }`; after a sign, up to the
+// end of the line (kLineSigns has them); and in brackets after a statement, `LD I0.0 (start)`. They become comments with
+// //, and code keeps its columns.
 #pragma once
 
 #include <string>
