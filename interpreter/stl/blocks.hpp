@@ -6,19 +6,16 @@
 // routine. What follows the reader knows no blocks, except for the names in their heads and their local variables.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <string_view>
 
+#include "interpreter/stl/is_instruction.hpp"
 #include "interpreter/stl/parser.hpp"
 
 namespace s7200::stl {
 
 /// Whether some line begins with a word such as ORGANIZATION_BLOCK.
 bool is_block_export(std::string_view text);
-
-/// Whether a mnemonic with so many operands is an instruction.
-using IsInstruction = std::function<bool(std::string_view mnemonic, std::size_t operands)>;
 
 /// Reads one. Messages about its lines name block and network (Source::sections). With `is_instruction`, statements before
 /// BEGIN are told from comments there; without it, only those with addresses.

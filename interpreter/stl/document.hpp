@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "interpreter/stl/ast.hpp"
+#include "interpreter/stl/is_instruction.hpp"
 #include "interpreter/stl/parser.hpp"
 
 namespace s7200::stl {
@@ -19,7 +20,7 @@ struct Advice {
 
 /// The reader's questions about mnemonics (upper case). The caller asks the instruction table, which stl/ does not know.
 struct InstructionSet {
-  std::function<bool(std::string_view mnemonic, std::size_t operands)> has;
+  IsInstruction has;
   std::function<Advice(std::string_view mnemonic)> advice_on;
 };
 

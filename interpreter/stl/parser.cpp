@@ -24,6 +24,7 @@
 #include "interpreter/stl/headings.hpp"
 #include "interpreter/stl/text/encoding.hpp"
 #include "interpreter/stl/text/german_letters.hpp"
+#include "interpreter/stl/text/network_heading.hpp"
 #include "interpreter/stl/text/look_alikes.hpp"
 
 #ifdef BOOST_NO_EXCEPTIONS
@@ -369,7 +370,7 @@ bool is_comparison_without_relation(std::string_view mnemonic) {
 constexpr const char* kNetworkTakes = "NETWORK takes a number and nothing else";
 constexpr const char* kTitleOfNetwork = "a title is written as a comment: NETWORK 1 // title";
 
-/// Headings in other languages, and how they are written here.
+/// Headings of routines in other languages, and how they are written here; those of networks are in network_heading.cpp.
 struct ForeignHeading {
   std::string_view word, of, hint;
 };
@@ -378,18 +379,6 @@ constexpr std::string_view kMainProgram = "write MAIN, or nothing: a listing beg
 constexpr std::string_view kSubroutineZero = "write SBR_0 for subroutine 0";
 constexpr std::string_view kInterruptZero = "write INT_0 for interrupt routine 0";
 constexpr std::array kForeignHeadings{
-    ForeignHeading{"RÉSEAU", "a network", "write NETWORK"},
-    ForeignHeading{"Réseau", "a network", "write NETWORK"},
-    ForeignHeading{"réseau", "a network", "write NETWORK"},
-    ForeignHeading{"СЕТЬ", "a network", "write NETWORK"},
-    ForeignHeading{"Сеть", "a network", "write NETWORK"},
-    ForeignHeading{"网络", "a network", "write NETWORK"},
-    ForeignHeading{"NETZWERK", "a network", "write NETWORK"},
-    ForeignHeading{"Netzwerk", "a network", "write NETWORK"},
-    ForeignHeading{"RESEAU", "a network", "write NETWORK"},
-    ForeignHeading{"Reseau", "a network", "write NETWORK"},
-    ForeignHeading{"SEGMENTO", "a network", "write NETWORK"},
-    ForeignHeading{"Segmento", "a network", "write NETWORK"},
     ForeignHeading{"Programme principal", "the main program", kMainProgram},
     ForeignHeading{"PROGRAMME PRINCIPAL", "the main program", kMainProgram},
     ForeignHeading{"Sous-programme", "a subroutine", kSubroutineZero},
@@ -915,12 +904,14 @@ class LineReader {
   /// them are unknown mnemonics to the checker.
   bool report_heading() {
     const std::string_view line = trim(text_);
-    const auto row =
+    const auto known =
         std::ranges::find_if(kForeignHeadings, [line](const ForeignHeading& each) { return line.starts_with(each.word); });
-    if (row == kForeignHeadings.end()) return false;
-    const std::string_view word = line.substr(0, row->word.size());
+    ForeignHeading row = known != kForeignHeadings.end() ? *known : ForeignHeading{{}, "a network", "write NETWORK"};
+    if (row.word.empty()) row.word = line.substr(0, plain::network_word(line));
+    if (row.word.empty() || upper_case(row.word) == "NETWORK") return false;
+    const std::string_view word = line.substr(0, row.word.size());
     report(position(Range(word.data(), word.data() + word.size())),
-           fmt::format("{} is the heading of {} in another language", word, row->of), std::string(row->hint),
+           fmt::format("{} is the heading of {} in another language", word, row.of), std::string(row.hint),
            "headings in another language");
     return true;
   }

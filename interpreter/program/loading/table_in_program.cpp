@@ -8,11 +8,13 @@
 
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/tables/symbol_table.hpp"
+#include "interpreter/stl/text/plain_line.hpp"
 
 namespace s7200 {
 namespace {
 
-using IsInstruction = std::function<bool(std::string_view mnemonic, std::size_t operands)>;
+using stl::IsInstruction;
+using stl::plain::words_of_code;
 
 enum class LineKind : std::uint8_t { Blank, Statement, Head, Row, Other };
 
@@ -28,13 +30,6 @@ bool is_title_of_table(std::string_view line) {
   const std::string text = stl::upper_case(line);
   return stl::split_words(text).size() <= kMostWords &&
          std::ranges::any_of(kWords, [&](std::string_view word) { return text.find(word) != text.npos; });
-}
-
-/// The words of a line without its comment, in capitals; a comma is a blank.
-std::vector<std::string> words_of_line(std::string_view line) {
-  std::string code = stl::upper_case(line.substr(0, line.find("//")));
-  std::ranges::replace(code, ',', ' ');
-  return stl::split_words(code);
 }
 
 class TableFinder {
@@ -64,7 +59,7 @@ class TableFinder {
  private:
   ReadLine read(std::string_view line) const {
     constexpr std::size_t kLongestRow = 300;
-    const std::vector<std::string> words = words_of_line(line);
+    const std::vector<std::string> words = words_of_code(line);
     if (words.empty() || line.find_first_not_of("-=+|: \t") == line.npos) return {LineKind::Blank};
     if (words[0] == "NETWORK" || is_instruction_(words[0], words.size() - 1)) return {LineKind::Statement};
     if (line.size() > kLongestRow || words[0].find_first_not_of("\"'") == std::string::npos) return {};
@@ -80,15 +75,8 @@ class TableFinder {
     const bool is_address = row.value && !std::holds_alternative<stl::Integer>(*row.value);
     if (!is_address && line.find('=') == line.npos) return {};  // `In network 1`
     std::string name = stl::upper_case(row.name);
-    return is_mnemonic(name) ? ReadLine{} : ReadLine{LineKind::Row, std::move(name)};  // `LD: I0.0`, `LD I0.0 I0.1`
-  }
-
-  /// Whether a name is a mnemonic with operands, so that an address after it may be one: `LD`, but not `STOP`.
-  bool is_mnemonic(std::string_view name) const {
-    constexpr std::size_t kMostOperands = 8;
-    for (std::size_t operands = 1; operands <= kMostOperands; ++operands)
-      if (is_instruction_(name, operands)) return true;
-    return false;
+    // A mnemonic with operands, so that the address may be one of them: `LD: I0.0`, `LD I0.0 I0.1`, but not `STOP I0.0`.
+    return stl::is_mnemonic(is_instruction_, name, 1) ? ReadLine{} : ReadLine{LineKind::Row, std::move(name)};
   }
 
   /// Takes the table that begins in a line if it is one. Returns its last line.
@@ -118,7 +106,7 @@ class TableFinder {
     if (words_.empty())
       for (std::size_t i = 0; i < lines_.size(); ++i)
         if (read_[i].kind == LineKind::Statement)
-          for (std::string& word : words_of_line(lines_[i])) {
+          for (std::string& word : words_of_code(lines_[i])) {
             std::erase(word, '"');
             if (word != "NETWORK") words_.insert(std::move(word));
           }

@@ -1,10 +1,11 @@
 // A table of symbols in the same text as its program, below it, above it or between its networks.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "interpreter/stl/is_instruction.hpp"
 
 namespace s7200 {
 
@@ -14,9 +15,7 @@ struct ProgramWithTable {
 };
 
 /// Nothing if the text has no such table, or nothing else. A table begins with headings, `Symbol;Address`; without them, its
-/// rows, `Motor = Q0.0`, are a table only if at least half of their names are in statements. `is_instruction` says whether a
-/// mnemonic in capitals takes so many operands.
-std::optional<ProgramWithTable> table_in_program(
-    std::string_view text, const std::function<bool(std::string_view mnemonic, std::size_t operands)>& is_instruction);
+/// rows, `Motor = Q0.0`, are a table only if at least half of their names are in statements.
+std::optional<ProgramWithTable> table_in_program(std::string_view text, const stl::IsInstruction& is_instruction);
 
 }  // namespace s7200

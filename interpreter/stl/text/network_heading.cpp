@@ -9,20 +9,6 @@
 namespace s7200::stl::plain {
 namespace {
 
-/// The word for a network at the beginning of a heading; 0 bytes if there is none. Beyond ASCII as they are written.
-std::size_t network_word(std::string_view text) {
-  static constexpr std::string_view kAscii[] = {"NETZWERK", "RESEAU", "SEGMENTO", "NETWERK", "REDE",   "RETE",
-                                                "RED",      "RUNG",   "NW",       "NET",     "NETWORK"};
-  static constexpr std::string_view kBeyond[] = {"RÉSEAU", "Réseau", "réseau", "СЕТЬ",   "Сеть",        "сеть", "网络",
-                                                 "網路",   "網絡",   "程序段", "程式段", "SIEĆ",        "Sieć", "sieć",
-                                                 "SÍŤ",    "Síť",    "AĞ",     "Ağ",     "ネットワーク"};
-  const auto letters = static_cast<std::size_t>(std::ranges::find_if_not(text, is_letter) - text.begin());
-  const std::string word = letters > 0 && letters <= 8 ? upper_case(text.substr(0, letters)) : "";
-  if (!word.empty() && std::ranges::find(kAscii, word) != std::end(kAscii)) return letters;
-  const auto* const beyond = std::ranges::find_if(kBeyond, [text](std::string_view each) { return text.starts_with(each); });
-  return beyond == std::end(kBeyond) ? 0 : beyond->size();
-}
-
 /// What may stand between the word and its number: `Network #1`, `Network No. 1`, `NETWORK_1`; 0 bytes if nothing does.
 std::size_t sign_before_number(std::string_view text) {
   constexpr std::array<std::string_view, 10> kSigns{"#", "_", "NO.", "NR.", "NO", "NR", "NUMBER", "N°", "Nº", "№"};
@@ -74,6 +60,19 @@ bool may_be_title(std::string_view title) {
 }
 
 }  // namespace
+
+std::size_t network_word(std::string_view text) {  // beyond ASCII as they are written
+  static constexpr std::string_view kAscii[] = {"NETZWERK", "RESEAU", "SEGMENTO", "NETWERK", "REDE",   "RETE",
+                                                "RED",      "RUNG",   "NW",       "NET",     "NETWORK"};
+  static constexpr std::string_view kBeyond[] = {"RÉSEAU", "Réseau", "réseau", "СЕТЬ",   "Сеть",        "сеть", "网络",
+                                                 "網路",   "網絡",   "程序段", "程式段", "SIEĆ",        "Sieć", "sieć",
+                                                 "SÍŤ",    "Síť",    "AĞ",     "Ağ",     "ネットワーク"};
+  const auto letters = static_cast<std::size_t>(std::ranges::find_if_not(text, is_letter) - text.begin());
+  const std::string word = letters > 0 && letters <= 8 ? upper_case(text.substr(0, letters)) : "";
+  if (!word.empty() && std::ranges::find(kAscii, word) != std::end(kAscii)) return letters;
+  const auto* const beyond = std::ranges::find_if(kBeyond, [text](std::string_view each) { return text.starts_with(each); });
+  return beyond == std::end(kBeyond) ? 0 : beyond->size();
+}
 
 std::optional<NetworkHeading> network_heading(std::string_view line) {
   constexpr std::size_t kMostDigits = 5;

@@ -410,6 +410,12 @@ std::size_t find_tag(std::string_view line, std::string_view name, bool closes) 
   return std::string_view::npos;
 }
 
+std::vector<std::string> words_of_code(std::string_view line) {
+  std::string code = upper_case(code_of(line));
+  std::ranges::replace(code, ',', ' ');
+  return split_words(code);
+}
+
 bool has_html(std::string_view line) {
   const std::string_view code = code_of(line);
   for (std::size_t at = code.find_first_of("<&"); at != std::string_view::npos; at = code.find_first_of("<&", at + 1))

@@ -65,6 +65,9 @@ bool has_html(std::string_view line);
 /// The line without its comment.
 std::string_view code_of(std::string_view line);
 
+/// Its words in capitals; a comma is a blank.
+std::vector<std::string> words_of_code(std::string_view line);
+
 /// Whether a line is one of the marks around code: those of Markdown, of forums, `[code]`, `[code=stl]`, `[/code]`, of Jira,
 /// `{code}`, of Org, `#+BEGIN_SRC`, and of LaTeX, `\begin{verbatim}`.
 bool is_fence(std::string_view line);

@@ -370,13 +370,18 @@ bool is_only_letter(std::string_view line) {
   return text.size() == 1 && (is_upper(text[0]) || is_digit(text[0]));
 }
 
+/// `M`, `VB`, `AIW`, German ones as well: what a number makes an address of.
+bool is_area(std::string_view word) {
+  constexpr std::size_t kLongest = 3;
+  if (word.empty() || word.size() > kLongest) return false;
+  const auto operand = parse_operand(fmt::format("{}0", word)), bit = parse_operand(fmt::format("{}0.0", word));
+  const auto is_address = [](const Result<Operand>& each) { return each && std::holds_alternative<Address>(each->value); };
+  return is_address(operand) || is_address(bit);
+}
+
 /// The gaps within addresses of a statement: `M 0.1`, `VB 10`, `I0 .0`, each as the place and the number of its blanks. The
 /// first word is the mnemonic.
 std::vector<Part> gaps_in_addresses(std::string_view line) {
-  static constexpr std::string_view kAreas[] = {"I",  "Q",  "V",  "M",  "SM",  "S",   "T",   "C",   "L",   "HC",  "AC", "AI",
-                                                "AQ", "E",  "A",  "Z",  "IB",  "IW",  "ID",  "QB",  "QW",  "QD",  "VB", "VW",
-                                                "VD", "MB", "MW", "MD", "SB",  "SW",  "SD",  "LB",  "LW",  "LD",  "EB", "EW",
-                                                "ED", "AB", "AW", "AD", "SMB", "SMW", "SMD", "AIW", "AQW", "AEW", "AAW"};
   std::vector<Part> gaps;
   const std::string_view code = code_of(line);
   if (code.size() > kLongestStatement || code.find_first_of("'\"") != code.npos) return gaps;
@@ -392,7 +397,7 @@ std::vector<Part> gaps_in_addresses(std::string_view line) {
     while (first > begin && (is_letter(code[first - 1]) || is_digit(code[first - 1]) || code[first - 1] == '.')) --first;
     const std::string word = upper_case(code.substr(first, at - first));
     const char next = to < code.size() ? code[to] : '\0';
-    const bool after_area = is_digit(next) && std::ranges::find(kAreas, word) != std::end(kAreas);
+    const bool after_area = is_digit(next) && is_area(word);
     const bool begins = !word.empty() && (is_letter(word.front()) || (!gaps.empty() && gaps.back().to == first));
     const bool has_area = begins && is_digit(word.back() == '.' ? '0' : word.back());
     const bool at_point = has_area && ((next == '.' && word.back() != '.') || (is_digit(next) && word.back() == '.'));
@@ -400,13 +405,6 @@ std::vector<Part> gaps_in_addresses(std::string_view line) {
     at = to;
   }
   return gaps;
-}
-
-/// The words of a line without its comment, in capitals; a comma is a blank.
-std::vector<std::string> words_of_code(std::string_view line) {
-  std::string code = upper_case(code_of(line).substr(0, kLongestStatement));
-  std::ranges::replace(code, ',', ' ');
-  return split_words(code);
 }
 
 Row without_gaps(const Row& row) {
@@ -419,7 +417,7 @@ Row without_gaps(const Row& row) {
 /// Changes that need all lines together. One step may uncover the next: `> 1. LD I0.0`, a fence in a quoted mail.
 class PageReader {
  public:
-  PageReader(std::vector<Row> rows, const KnowsInstruction& is_instruction)
+  PageReader(std::vector<Row> rows, const IsInstruction& is_instruction)
       : rows_(std::move(rows)), is_instruction_(is_instruction) {}
 
   void run() {
@@ -568,23 +566,20 @@ class PageReader {
 
   /// Whether a line is an instruction with as many operands as it takes.
   bool takes_as_written(std::string_view line) const {
-    const std::vector<std::string> words = words_of_code(line);
+    const std::vector<std::string> words = words_of_code(line.substr(0, kLongestStatement));
     return !words.empty() && is_instruction_(words[0], words.size() - 1);
   }
 
   /// Whether a text can be read as an instruction with its operands.
   bool is_statement(std::string_view text) const {
-    constexpr std::size_t kMostOperands = 8, kLongestOfStack = 5;
-    const std::vector<std::string> words = words_of_code(text);
+    constexpr std::size_t kLongestOfStack = 5;
+    const std::vector<std::string> words = words_of_code(text.substr(0, kLongestStatement));
     if (words.empty()) return false;
     if (!is_instruction_)
       return looks_like_statement(text) ||
              (words.size() == 1 && words[0].size() <= kLongestOfStack && trim(code_of(text)) == words[0]);
     if (is_instruction_(words[0], words.size() - 1)) return true;
-    if (!looks_like_statement(text)) return false;
-    bool any = false;
-    for (std::size_t operands = 0; operands <= kMostOperands; ++operands) any = any || is_instruction_(words[0], operands);
-    return any;
+    return looks_like_statement(text) && is_mnemonic(is_instruction_, words[0]);
   }
 
   /// Whether a line that may be a heading or the beginning of a sentence is a heading: a statement follows, or it has the
@@ -816,7 +811,7 @@ class PageReader {
   }
 
   std::vector<Row> rows_;
-  const KnowsInstruction& is_instruction_;
+  const IsInstruction& is_instruction_;
   std::vector<std::uint32_t> left_out_{};
   std::uint32_t around_ = 0;
 };
@@ -861,7 +856,7 @@ bool may_have_margin(std::string_view line) {
   return (line[from] == '-' || line[from] == '*') && (next == " " || next == "\t" || next == "*");
 }
 
-Page read_page(std::vector<Row> rows, const std::vector<std::string>& lines, const KnowsInstruction& is_instruction) {
+Page read_page(std::vector<Row> rows, const std::vector<std::string>& lines, const IsInstruction& is_instruction) {
   PageReader reader(std::move(rows), is_instruction);
   reader.run();
   reader.leave_out_text(lines);

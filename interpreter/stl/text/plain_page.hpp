@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "interpreter/stl/is_instruction.hpp"
 #include "interpreter/stl/text/plain_line.hpp"
 
 namespace s7200::stl::plain {
@@ -43,11 +43,8 @@ struct Page {
   std::uint32_t around = 0;               // what the program was cut out of, as a change
 };
 
-/// Whether a mnemonic in capitals with so many operands is an instruction; empty: nobody knows.
-using KnowsInstruction = std::function<bool(std::string_view mnemonic, std::size_t operands)>;
-
 /// Makes the changes that need all rows. `lines` are those of the original.
-Page read_page(std::vector<Row> rows, const std::vector<std::string>& lines, const KnowsInstruction& is_instruction);
+Page read_page(std::vector<Row> rows, const std::vector<std::string>& lines, const IsInstruction& is_instruction);
 
 /// Whether a line alone says that the page is to be read: a heading of another language, a row of a table, a margin.
 bool may_need_page(std::string_view line);

@@ -51,7 +51,7 @@ std::vector<Row> read_lines(const std::vector<std::string>& lines, const std::ve
 }  // namespace
 }  // namespace plain
 
-PlainText::PlainText(std::string_view original, const plain::KnowsInstruction& is_instruction) : original_(original) {
+PlainText::PlainText(std::string_view original, const IsInstruction& is_instruction) : original_(original) {
   using namespace plain;
   if (!has_such_a_line(original)) return;
   original_lines_ = split_lines(original);

@@ -21,7 +21,7 @@ class PlainText {
  public:
   /// The text `original` (UTF-8) must live as long as this object. Without `is_instruction` less is read: only it can tell
   /// the title of a network from a statement.
-  explicit PlainText(std::string_view original, const plain::KnowsInstruction& is_instruction = {});
+  explicit PlainText(std::string_view original, const IsInstruction& is_instruction = {});
 
   /// The text for the readers. A line of the original may be several lines of it.
   std::string_view text() const { return lines_.empty() ? original_ : text_; }

@@ -136,7 +136,7 @@ bool may_open_wrapping(std::string_view line) {
 }
 
 std::optional<Wrapped> wrapped_program(const std::vector<std::string>& lines, bool html,
-                                       const KnowsInstruction& is_instruction) {
+                                       const IsInstruction& is_instruction) {
   const auto is_of_program = [&](std::string_view line) {  // `import s7` is not
     const std::vector<std::string> words = split_words(upper_case(code_of(line)));
     return is_statement(line) && (!is_instruction || is_instruction(words[0], words.size() - 1) || words.size() != 2);

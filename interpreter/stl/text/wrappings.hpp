@@ -23,6 +23,6 @@ bool may_open_wrapping(std::string_view line);
 /// The program between such marks. Nothing if there are none, if statements stand outside of them, or if several of them
 /// hold statements, unless all are <pre>.
 std::optional<Wrapped> wrapped_program(const std::vector<std::string>& lines, bool html,
-                                       const KnowsInstruction& is_instruction);
+                                       const IsInstruction& is_instruction);
 
 }  // namespace s7200::stl::plain
