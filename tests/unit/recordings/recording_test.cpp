@@ -424,7 +424,8 @@ TEST(Recordings, TimesThatAreNotUnderstoodOrRunBackwardsAreNoted) {
 TEST(Recordings, BlocksOfStep7AreNoBytes) {
   for (const char* const text : {"FUNCTION_BLOCK FB 10\nTITLE =\nBEGIN\nU E 0.0\n", "DATA_BLOCK DB 10\n STRUCT\n",
                                  "// Station 2\nDATA_BLOCK DB12\nBEGIN\n", "FUNCTION FC 20 : VOID\nL 5\nT MW 10\n"})
-    EXPECT_EQ(refusal_of(text), "it is a block of STEP 7 for the S7-300 and S7-400, neither a recording nor STL of the S7-200")
+    EXPECT_EQ(refusal_of(text),
+              "it is a block of STEP 7 for the S7-300 and S7-400, neither a recording nor STL of the S7-200")
         << text;
   for (const char* const text : {"Hallo,\nbitte in DB 10 nachsehen.\n", "Der Wert steht in DB10 und FC 22\n",
                                  "CALL FB 10, DB 11\n", "siehe (DB 10)\n"})

@@ -1,27 +1,11 @@
 // Records in YAML, AT commands, characters in rows of tables without names, marks of bytes, and values that are no bytes.
-#include <gtest/gtest.h>
-
-#include "tools/recordings/conversation.hpp"
+#include "tests/unit/recordings/conversation.hpp"
 
 namespace s7200::tools::records_test {
 namespace {
 
-LineRecording recording_of(const std::string& bytes) {
-  auto recording = read_recording(bytes, {});
-  EXPECT_TRUE(recording) << recording.why() << '\n' << bytes;
-  return recording.value_or(LineRecording{});
-}
+using namespace test;
 
-std::vector<std::string> texts(const std::string& bytes) {
-  constexpr Stamps kStamps{.character = 1'145'833};
-  std::vector<std::string> said;
-  for (const ReadFrame& frame : conversation(recording_of(bytes), *find_recorded_protocol("modbus"), kStamps))
-    said.push_back(frame.text);
-  return said;
-}
-
-const std::vector<std::string> kConversation{"station 1, read holding registers 40001, 2 of them",
-                                             "2 registers: 16#000A 16#0014"};
 const Bytes kRequest{0x01, 0x03, 0x00, 0x00, 0x00, 0x02, 0xC4, 0x0B};
 const Bytes kAnswer{0x01, 0x03, 0x04, 0x00, 0x0A, 0x00, 0x14, 0xDA, 0x3E};
 

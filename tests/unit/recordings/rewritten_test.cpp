@@ -1,27 +1,10 @@
 // Logs whose rows are rewritten in hex first, and files in which two programs have logged.
-#include <gtest/gtest.h>
-
-#include "tools/recordings/conversation.hpp"
+#include "tests/unit/recordings/conversation.hpp"
 
 namespace s7200::tools::rewritten_test {
 namespace {
 
-LineRecording recording_of(const std::string& bytes) {
-  auto recording = read_recording(bytes, {});
-  EXPECT_TRUE(recording) << recording.why() << '\n' << bytes;
-  return recording.value_or(LineRecording{});
-}
-
-std::vector<std::string> texts(const std::string& bytes) {
-  constexpr Stamps kStamps{.character = 1'145'833};
-  std::vector<std::string> said;
-  for (const ReadFrame& frame : conversation(recording_of(bytes), *find_recorded_protocol("modbus"), kStamps))
-    said.push_back(frame.text);
-  return said;
-}
-
-const std::vector<std::string> kConversation{"station 1, read holding registers 40001, 2 of them",
-                                             "2 registers: 16#000A 16#0014"};
+using namespace test;
 
 TEST(Rewritten, CaretNotationHasItsBytes) {
   EXPECT_EQ(texts("10:00:00.000 TX ^A^C^@^@^@^BM-D^K\n10:00:00.050 RX ^A^C^D^@^J^@^TM-Z>\n"), kConversation);

@@ -144,11 +144,4 @@ void end_before_anything_ran(bool json, bool compares) {
   print_interruption();
 }
 
-bool write_wanted(const std::optional<Destination>& to, const std::string& text) {
-  if (!to) return true;
-  const auto done = write_result(*to, text);
-  if (!done) print_error(done.why());
-  return bool(done);
-}
-
 }  // namespace s7200::tools

@@ -56,7 +56,4 @@ void print_messages(const Messages& messages);
 /// After an interruption: results without a scenario. `compares`: two of what is tested.
 void end_before_anything_ran(bool json, bool compares);
 
-/// False after a message. Writes nothing where nothing was asked for.
-bool write_wanted(const std::optional<Destination>& to, const std::string& text);
-
 }  // namespace s7200::tools

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "interpreter/base/file_path.hpp"
+#include "tools/command/options/wanted_file.hpp"
 #include "tools/command/reports/reported_system.hpp"
 #include "tools/command/testing/test_output.hpp"
 #include "tools/scenario/reporting/junit.hpp"

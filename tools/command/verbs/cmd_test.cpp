@@ -6,6 +6,7 @@
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/plc/stand_in_options.hpp"
 #include "tools/command/options/verb/test_options.hpp"
+#include "tools/command/options/wanted_file.hpp"
 #include "tools/command/polling/growing_transcript.hpp"
 #include "tools/command/terminal/terminal.hpp"
 #include "tools/command/testing/mutants_output.hpp"

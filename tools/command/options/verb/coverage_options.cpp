@@ -8,6 +8,7 @@
 
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "tools/command/options/wanted_file.hpp"
 #include "tools/command/terminal/terminal.hpp"
 #include "tools/command/testing/test_output.hpp"
 #include "tools/coverage/coverage_files.hpp"
@@ -38,17 +39,12 @@ void CoverageOptions::add_to(CLI::App& app, const char* group) {
 }
 
 void CoverageOptions::claim(WrittenFiles& files) {
-  const auto claim = [&](std::string_view option, const std::string& path,
-                         const FileKind& kind) -> std::optional<Destination> {
-    if (path.empty()) return {};
-    auto place = files.claim(option, path, kind, Replace::Own);
-    if (!place) throw std::invalid_argument(place.why());
-    return *std::move(place);
-  };
   if (page_ == "-" || lcov_ == "-")
     throw std::invalid_argument("--coverage-html and --coverage-lcov write files; '-' is none");
-  page_to_ = claim("--coverage-html", page_, {"a page of s7200 test --coverage-html", std::string(kCoveragePageBeginning)});
-  lcov_to_ = claim("--coverage-lcov", lcov_, {"a file of s7200 test --coverage-lcov", std::string(kLcovBeginning)});
+  page_to_ = claim_wanted(files, "--coverage-html", page_,
+                          {"a page of s7200 test --coverage-html", std::string(kCoveragePageBeginning)});
+  lcov_to_ =
+      claim_wanted(files, "--coverage-lcov", lcov_, {"a file of s7200 test --coverage-lcov", std::string(kLcovBeginning)});
 }
 
 void CoverageOptions::add_to(nlohmann::ordered_json& results, const CoverageOfPrograms& coverage) const {

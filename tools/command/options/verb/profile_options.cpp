@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "tools/command/options/wanted_file.hpp"
 #include "tools/command/terminal/terminal.hpp"
 #include "tools/command/testing/test_output.hpp"
 
@@ -20,11 +21,8 @@ void ProfileOptions::add_to(CLI::App& app, const char* group) {
 }
 
 void ProfileOptions::claim(WrittenFiles& files) {
-  if (folded_.empty()) return;
   if (folded_ == "-") throw std::invalid_argument("--profile-folded writes a file; '-' is none");
-  auto claimed = files.claim("--profile-folded", folded_, {"folded stacks of --profile-folded", "system "}, Replace::Own);
-  if (!claimed) throw std::invalid_argument(claimed.why());
-  folded_to_ = *std::move(claimed);
+  folded_to_ = claim_wanted(files, "--profile-folded", folded_, {"folded stacks of --profile-folded", "system "});
 }
 
 void ProfileOptions::add_to(nlohmann::ordered_json& results, const ProfileOfPrograms& profile) const {

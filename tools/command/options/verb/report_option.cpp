@@ -9,6 +9,7 @@
 #include "interpreter/base/file_path.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/command/options/help_groups.hpp"
+#include "tools/command/options/wanted_file.hpp"
 #include "tools/command/terminal/terminal.hpp"
 #include "tools/command/testing/test_output.hpp"
 #include "tools/host/files/files.hpp"

@@ -12,6 +12,7 @@
 #include "tools/command/options/plc/line_options.hpp"
 #include "tools/command/options/plc/program_options.hpp"
 #include "tools/command/options/plc/stand_in_options.hpp"
+#include "tools/command/options/wanted_file.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/scenario/reporting/junit.hpp"
 #include "tools/scenario/reporting/markdown.hpp"
@@ -137,18 +138,12 @@ void TestOptions::check() const {
 TestOptions::Destinations TestOptions::claim_files() {
   Destinations to;
   WrittenFiles files;
-  const auto claim = [&](std::string_view option, const std::string& path,
-                         const FileKind& kind) -> std::optional<Destination> {
-    if (path.empty()) return {};
-    auto place = files.claim(option, path, kind, Replace::Own);
-    if (!place) throw std::invalid_argument(place.why());
-    return *std::move(place);
-  };
-  to.record = claim("--record", record, {"a transcript", std::string(kTranscriptBeginning)});
+  to.record = claim_wanted(files, "--record", record, {"a transcript", std::string(kTranscriptBeginning)});
   if (to.record && to.record->replaces_content() && !force)
     throw std::invalid_argument(fmt::format("{} exists; --force overwrites it", record));
-  to.junit = claim("--junit", junit, {"a JUnit file of s7200 test", std::string(kJunitBeginning)});
-  to.markdown = claim("--markdown", markdown, {"a Markdown file of s7200 test", std::string(kMarkdownBeginning)});
+  to.junit = claim_wanted(files, "--junit", junit, {"a JUnit file of s7200 test", std::string(kJunitBeginning)});
+  to.markdown =
+      claim_wanted(files, "--markdown", markdown, {"a Markdown file of s7200 test", std::string(kMarkdownBeginning)});
   coverage.claim(files);
   profile.claim(files);
   return to;
