@@ -37,13 +37,6 @@ std::uint64_t letters_of(std::string_view word) {
   return letters;
 }
 
-/// A change adds one letter and takes one away at most; the length changes by one at most.
-std::size_t least_distance(std::string_view a, std::string_view b) {
-  const std::size_t longer = std::max(a.size(), b.size()) - std::min(a.size(), b.size());
-  const auto different = static_cast<std::size_t>(std::popcount(letters_of(a) ^ letters_of(b)));
-  return std::max(longer, (different + 1) / 2);
-}
-
 }  // namespace
 
 std::vector<std::string_view> all_nearest(std::string_view word, std::span<const std::string_view> known,
@@ -51,8 +44,11 @@ std::vector<std::string_view> all_nearest(std::string_view word, std::span<const
   std::vector<std::string_view> found;
   if (word.size() < 2 || word.size() > kLongestWord) return found;
   std::size_t best = std::min(most_changes, kMostChanges);
+  const std::uint64_t letters = letters_of(word);
   for (const std::string_view candidate : known) {
-    if (least_distance(word, candidate) > best) continue;
+    // A change adds one letter and takes one away at most; the length changes by one at most.
+    if (std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size()) > best) continue;
+    if (static_cast<std::size_t>(std::popcount(letters ^ letters_of(candidate))) > 2 * best) continue;
     const std::size_t changes = distance(word, candidate);
     if (changes > best) continue;
     if (changes < best) found.clear();

@@ -90,9 +90,10 @@ class Checker {
   void tell_undefined_symbols_apart() {
     if (std::ranges::find(diagnostics_, kUndefinedSymbols, &stl::Diagnostic::cause) == diagnostics_.end()) return;
     const std::vector<stl::Symbol> own = users_symbols();
+    const KnownNames known = known_names();
     for (stl::Diagnostic& diagnostic : diagnostics_) {
       if (diagnostic.cause != kUndefinedSymbols) continue;
-      const std::string meant = nearest_symbol(written_at(diagnostic.position));
+      const std::string meant = nearest_symbol(written_at(diagnostic.position), known);
       if (!meant.empty())
         diagnostic.hint = fmt::format("did you mean {}?", meant);
       else if (!own.empty())
@@ -147,22 +148,29 @@ class Checker {
     return longest;
   }
 
+  /// The names of all symbols, and the same in capitals.
+  struct KnownNames {
+    std::vector<std::string> names{}, capitals{};
+  };
+  KnownNames known_names() const {
+    KnownNames known;
+    for (const std::span<const stl::Symbol> table : {std::span(source_.symbols), stl::system_symbols()})
+      for (const stl::Symbol& symbol : table) known.names.push_back(symbol.name);
+    std::ranges::transform(known.names, std::back_inserter(known.capitals), stl::upper_case);
+    return known;
+  }
+
   /// The symbol that is written almost like a name, or that begins with it; empty if there is none.
-  std::string nearest_symbol(std::string_view written) const {
+  static std::string nearest_symbol(std::string_view written, const KnownNames& all) {
     constexpr std::string_view kMarks = "&*#\"";
     constexpr std::size_t kShort = 6;  // two changes make another word of it
     written.remove_prefix(std::min(written.find_first_not_of(kMarks), written.size()));
     const std::string name = stl::upper_case(written.substr(0, written.find_first_of("\":")));
-    std::vector<std::string> names;
-    for (const std::span<const stl::Symbol> table : {std::span(source_.symbols), stl::system_symbols()})
-      for (const stl::Symbol& symbol : table) names.push_back(symbol.name);
-    std::vector<std::string> capitals;
-    std::ranges::transform(names, std::back_inserter(capitals), stl::upper_case);
-    const std::vector<std::string_view> known(capitals.begin(), capitals.end());
+    const std::vector<std::string_view> known(all.capitals.begin(), all.capitals.end());
     const auto near = all_nearest(name, known, name.size() < kShort ? 1 : 2);
     const auto longer = [&](std::string_view each) { return name.size() >= kShort && each.starts_with(name); };
     const auto found = near.empty() ? std::ranges::find_if(known, longer) : std::ranges::find(known, near.front());
-    return found == known.end() ? std::string() : names[static_cast<std::size_t>(found - known.begin())];
+    return found == known.end() ? std::string() : all.names[static_cast<std::size_t>(found - known.begin())];
   }
 
   void no_statement() {
