@@ -47,9 +47,28 @@ Result<OperandValue> value_of(std::string_view cell) {
   return operand->value;
 }
 
-bool has_value(std::string_view text) { return value_of(text).has_value(); }
+/// Whether a cell can have a value: a quick answer for the words that cannot. An area has three letters at most, and what
+/// has more letters in front of its digits is a name; so is what begins with a sign of names. A name may have its address
+/// beside it, `Pump:Q0.0`.
+bool may_be_value(std::string_view cell) {
+  constexpr std::size_t kLongestArea = 3;
+  if (cell.size() > kLongestValue || std::ranges::none_of(cell, [](char c) { return is_digit(c) || c == '\''; }))
+    return false;
+  if (cell.find_first_of("':") != cell.npos) return true;
+  if (cell.starts_with('%')) cell.remove_prefix(1);
+  if (cell.starts_with('&') || cell.starts_with('*')) cell.remove_prefix(1);
+  const auto letters = static_cast<std::size_t>(std::ranges::find_if_not(cell, is_letter) - cell.begin());
+  const std::size_t next = cell.find_first_not_of(' ', letters);
+  if (letters == 0)
+    return std::string_view("0123456789+-").find(cell[0]) != cell.npos && cell.find_first_of(" ,;") == cell.npos;
+  const bool address = letters <= kLongestArea && cell.find_first_not_of("0123456789.", next) == cell.npos;
+  return address || cell[0] == 'K' || cell[0] == 'k' || cell[next] == '#';
+}
+
+bool has_value(std::string_view text) { return may_be_value(text) && value_of(text).has_value(); }
 
 bool is_address(std::string_view text) {
+  if (!may_be_value(text)) return false;
   const auto value = value_of(text);
   if (!value || may_be_name(*value, without_iec_mark_and_gap(text))) return false;
   return std::holds_alternative<Address>(*value) || std::holds_alternative<Name>(*value);
@@ -65,19 +84,25 @@ constexpr std::array<std::string_view, 5> kTypes{"BYTE", "WORD", "INT", "DWORD",
 /// Whether a symbol is retentive, beside its type.
 constexpr std::array<std::string_view, 8> kFlags{"TRUE", "FALSE", "YES", "NO", "JA", "NEIN", "RETAIN", "NON-RETAIN"};
 
-bool is_format(std::string_view text) { return std::ranges::find(kFormats, upper_case(text)) != kFormats.end(); }
-bool is_type(std::string_view text) {
-  return is_format(text) || std::ranges::find(kTypes, upper_case(text)) != kTypes.end();
+/// Whether a text is one of some words, which are in capitals, however its ASCII letters are written.
+bool is_in_any_case(std::span<const std::string_view> words, std::string_view text) {
+  const auto same = [](char written, char capital) {
+    return (is_lower(written) ? written - 'a' + 'A' : written) == capital;
+  };
+  return std::ranges::any_of(words, [&](std::string_view word) {
+    return word.size() == text.size() && std::equal(text.begin(), text.end(), word.begin(), same);
+  });
 }
+
+bool is_format(std::string_view text) { return is_in_any_case(kFormats, text); }
+bool is_type(std::string_view text) { return is_format(text) || is_in_any_case(kTypes, text); }
 
 // --- headings ---
 
-/// A heading in capitals and without accents: `MNEMONIQUE` for `Mnémonique`; asterisks and colons around it are left out.
+/// A text in capitals and without accents: `MNEMONIQUE` for `Mnémonique`.
 std::string heading_of(std::string_view text) {
-  constexpr std::string_view kMarks = " *:_";
   constexpr std::string_view kBase = "AAAAAAACEEEEIIIIDNOOOOO*OUUUUYTSAAAAAAACEEEEIIIIDNOOOOO/OUUUUYTY";  // U+00C0 to U+00FF
-  text.remove_prefix(std::min(text.find_first_not_of(kMarks), text.size()));
-  text = text.substr(0, text.find_last_not_of(kMarks) + 1);
+  if (is_ascii(text)) return upper_case(text);
   std::string heading;
   for (const Character c : characters(text)) {
     if (c.code >= 0xC0 && c.code < 0xC0 + kBase.size())
@@ -104,9 +129,14 @@ constexpr std::array<std::string_view, 14> kCommentHeadings{
     "COMMENT",     "COMMENTS",   "DESCRIPTION", "REMARK", "REMARKS", "KOMMENTAR", "BESCHREIBUNG",
     "COMMENTAIRE", "COMENTARIO", "COMMENTO",    "注释",   "註解",    "注解",      "说明"};
 
+/// Asterisks and colons around a heading are left out.
 bool is_one_of(std::span<const std::string_view> headings, std::string_view text) {
   constexpr std::size_t kLongestHeading = 40;
-  return text.size() <= kLongestHeading && std::ranges::find(headings, heading_of(text)) != headings.end();
+  constexpr std::string_view kMarks = " *:_";
+  if (text.size() > kLongestHeading) return false;
+  text.remove_prefix(std::min(text.find_first_not_of(kMarks), text.size()));
+  text = text.substr(0, text.find_last_not_of(kMarks) + 1);
+  return is_ascii(text) ? is_in_any_case(headings, text) : std::ranges::find(headings, heading_of(text)) != headings.end();
 }
 
 // --- rows and cells ---
@@ -205,7 +235,7 @@ bool is_sign(std::string_view word) {
 Cells symbol_among(const std::vector<std::string_view>& words) {
   const std::size_t at = place_of_address(words);
   if (at == words.size() || (at == 0 && words.size() > 1 && is_type(words[1]))) return {};
-  const bool gap = !is_address(words[at]) && !has_value(words[at]);  // `I 0.0`
+  const bool gap = !has_value(words[at]);  // `I 0.0`
   const std::size_t after = at + (gap ? 2 : 1);
   std::size_t first = 0, last = at;
   if (at == 0) {
@@ -304,13 +334,14 @@ std::optional<Columns> headings(const Cells& cells) {
 /// unless only the first is an address. A format or a type is a name only in the first column.
 std::optional<Columns> columns_of(const Cells& cells) {
   const auto is_symbol = [&](std::size_t i) {
-    return is_name(cells[i].text) && !is_address(cells[i].text) && (i == 0 || !is_type(cells[i].text));
+    return is_name(cells[i].text) && (i == 0 || !is_type(cells[i].text)) && !is_address(cells[i].text);
   };
   for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
-    const bool type = is_symbol(i) && i + 2 < cells.size() && is_type(cells[i + 1].text) && is_address(cells[i + 2].text);
+    const bool symbol = is_symbol(i);
+    const bool type = symbol && i + 2 < cells.size() && is_type(cells[i + 1].text) && is_address(cells[i + 2].text);
     const std::size_t next = type ? i + 2 : i + 1;
-    if (is_symbol(i) && has_value(cells[next].text)) return Columns{i, next, next + 1};
-    if (is_address(cells[i].text) && is_symbol(i + 1)) return Columns{i + 1, i, i + 2};
+    if (symbol && has_value(cells[next].text)) return Columns{i, next, next + 1};
+    if (!symbol && is_address(cells[i].text) && is_symbol(i + 1)) return Columns{i + 1, i, i + 2};
   }
   return std::nullopt;
 }
@@ -425,7 +456,7 @@ class SymbolTableReader {
     std::size_t from = columns.comment;
     if (!columns.has_comment && from < end && is_type(cells[from].text)) {
       ++from;
-      while (from < end && std::ranges::find(kFlags, upper_case(cells[from].text)) != kFlags.end()) ++from;
+      while (from < end && is_in_any_case(kFlags, cells[from].text)) ++from;
     }
     for (std::size_t i = from; i < end; ++i) comment += (comment.empty() ? "" : " ") + cells[i].text;
     return std::string(trim(comment.starts_with("//") ? std::string_view(comment).substr(2) : comment));
@@ -491,6 +522,9 @@ bool is_symbol_table(std::string_view text, const std::function<bool(std::string
 
 bool is_head_of_symbols(std::string_view line) {
   using enum Separator;
+  const std::string capitals = heading_of(line);
+  const auto occurs = [&](std::string_view heading) { return capitals.find(heading) != capitals.npos; };
+  if (std::ranges::none_of(kAddressHeadings, occurs) || std::ranges::none_of(kNameHeadings, occurs)) return false;
   return std::ranges::any_of(std::array{Tab, Semicolon, Comma, Bar, Blanks},
                              [&](Separator separator) { return headings(cells_of(line, separator)).has_value(); });
 }
@@ -508,11 +542,19 @@ bool is_status_chart(std::string_view text) {
   };
   // Blanks alone are between the words of any text.
   const auto is_row = [](const Cells& cells, Separator separator) {
-    if (cells.size() < 2 || columns_of(cells)) return false;
-    if (separator == Separator::Blanks) return is_address(cells[0].text) && is_format(cells[1].text);
-    return std::ranges::any_of(cells.begin() + 1, cells.end(), is_format, &Cell::text);
+    if (cells.size() < 2) return false;
+    const bool has_format = separator == Separator::Blanks ? is_format(cells[1].text) && is_address(cells[0].text)
+                                                           : std::any_of(cells.begin() + 1, cells.end(),
+                                                                         [](const Cell& c) { return is_format(c.text); });
+    return has_format && !columns_of(cells);
   };
   const auto lines = first_rows(text);
+  const auto may_have_format = [](std::string_view line) {
+    const std::string capitals = heading_of(line);
+    const auto occurs = [&](std::string_view word) { return capitals.find(word) != capitals.npos; };
+    return std::ranges::any_of(kFormats, occurs) || std::ranges::any_of(kFormatHeadings, occurs);
+  };
+  if (std::ranges::none_of(lines, may_have_format)) return false;
   const Separator separator =
       separator_of(lines, [&](const Cells& cells, Separator by) { return has_chart_headings(cells) || is_row(cells, by); });
   std::size_t rows = 0, other = 0;
