@@ -52,6 +52,14 @@ Place find_in_code(std::string_view line, const std::array<std::string_view, kCo
   return {};
 }
 
+/// Whether find_in_code may find a text in a line: a quick answer for all the lines that have it only after //, or nowhere.
+bool may_be_in_code(std::string_view line, std::string_view text) {
+  const std::size_t at = line.find(text);
+  if (at == line.npos) return false;
+  const std::string_view before = line.substr(0, at);
+  return before.find("//") == before.npos || before.find_first_of("'\"") != before.npos;
+}
+
 /// Takes the comments in brackets out of the code of all lines, and puts them after it.
 class BracketReader {
  public:
@@ -70,6 +78,8 @@ class BracketReader {
   static constexpr std::array<std::string_view, 4> kOpen{"(*", "/*", "<!--", "{ "}, kClose{"*)", "*/", "-->", " }"};
 
   void read(std::size_t i) {
+    const auto may_open = [&](std::string_view each) { return may_be_in_code(lines_[i], each); };
+    if (!open_ && std::ranges::none_of(kOpen, may_open)) return;
     const std::string line = std::move(lines_[i]);
     std::string code, comment;
     for (std::size_t at = 0; at < line.size();) {
@@ -204,17 +214,21 @@ bool has_strokes(std::string_view line, std::string_view sign = {}) {
 /// Puts // in place of the signs that the text has comments after. A line of its own is read as such a comment only where
 /// another comment stands after a statement, or where the sign says otherwise.
 void rewrite_after_sign(std::vector<std::string>& lines, const Sign& sign, bool any_statement, std::vector<bool>& changed) {
-  const auto has_sign = [&sign](const std::string& line) { return line.find(sign.sign) != line.npos; };
-  if (std::ranges::none_of(lines, has_sign)) return;
+  std::vector<std::size_t> with_sign;  // numbers of lines
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (may_be_in_code(lines[i], sign.sign)) with_sign.push_back(i);
+  if (with_sign.empty()) return;
   bool any_sure = false, is_list = false;
-  for (const std::string& line : lines) {
+  for (const std::size_t i : with_sign) {
+    const std::string& line = lines[i];
     const bool none = has_strokes(line, sign.sign) || sign.where == Where::Alone;
     const auto found = none ? std::nullopt : comment_after(line, sign);
     any_sure |= found && found->sure;
     if (sign.sign == "*") is_list = is_list || begins_row_of_list(line);
   }
   const bool alone = sign.where != Where::AfterAddress && (any_sure || (any_statement && sign.where != Where::AfterCode));
-  for (std::size_t i = 0; i < lines.size() && !is_list; ++i) {
+  if (is_list) return;
+  for (const std::size_t i : with_sign) {
     std::string& line = lines[i];
     std::optional<std::size_t> begin;
     if (has_strokes(line, sign.sign)) continue;
