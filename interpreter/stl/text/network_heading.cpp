@@ -67,6 +67,12 @@ std::size_t network_word(std::string_view text) {  // beyond ASCII as they are w
   static constexpr std::string_view kBeyond[] = {"RÉSEAU", "Réseau", "réseau", "СЕТЬ",   "Сеть",        "сеть", "网络",
                                                  "網路",   "網絡",   "程序段", "程式段", "SIEĆ",        "Sieć", "sieć",
                                                  "SÍŤ",    "Síť",    "AĞ",     "Ağ",     "ネットワーク"};
+  constexpr auto kMayBegin = [](std::string_view word) {
+    return !word.empty() &&
+           (static_cast<unsigned char>(word[0]) >= 0x80 || std::string_view("NRSAnrsa").find(word[0]) != word.npos);
+  };
+  static_assert(std::ranges::all_of(kAscii, kMayBegin) && std::ranges::all_of(kBeyond, kMayBegin));
+  if (!kMayBegin(text)) return 0;
   const auto letters = static_cast<std::size_t>(std::ranges::find_if_not(text, is_letter) - text.begin());
   const std::string word = letters > 0 && letters <= 8 ? upper_case(text.substr(0, letters)) : "";
   if (!word.empty() && std::ranges::find(kAscii, word) != std::end(kAscii)) return letters;

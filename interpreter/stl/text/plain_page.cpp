@@ -81,9 +81,11 @@ std::size_t list_mark(std::string_view line) {
   return marked && (line[from] == '-' || line[from] == '*') ? from + 2 : 0;
 }
 
+bool begins_with_network(std::string_view line) { return upper_case(trim(line).substr(0, 7)) == "NETWORK"; }
+
 bool stands_without_mark(std::string_view line) {
   const std::string_view code = trim(code_of(line));
-  if (code.empty() || upper_case(code.substr(0, 7)) == "NETWORK" || routine_heading(code)) return true;
+  if (code.empty() || begins_with_network(code) || routine_heading(code)) return true;
   const auto heading = network_heading(code);
   return heading && heading->sure;
 }
@@ -192,11 +194,13 @@ bool is_network_without_number(std::string_view code) {
 /// `Motor start`, as people write it below the heading of a network: words in small letters, none of which is an operand.
 bool may_be_title_line(std::string_view code) {
   constexpr std::size_t kShortest = 4, kMostWords = 8;
-  if (code.size() > kLongestStatement) return false;
+  const std::string_view first = code.substr(0, code.find_first_of(" \t"));
+  const bool may_be =
+      std::ranges::any_of(first, [](char c) { return is_lower(c) || static_cast<unsigned char>(c) >= 0x80; });
+  if (!may_be || first.size() < kShortest || code.size() > kLongestStatement || code.find_first_of(",|()") != code.npos)
+    return false;
   const std::vector<std::string> words = split_words(code);
-  return !words.empty() && words.size() <= kMostWords && words[0].size() >= kShortest && upper_case(words[0]) != "NETWORK" &&
-         std::ranges::any_of(words[0], [](char c) { return is_lower(c) || static_cast<unsigned char>(c) >= 0x80; }) &&
-         std::ranges::none_of(words, may_be_operand) && code.find_first_of(",|()") == code.npos;
+  return words.size() <= kMostWords && upper_case(first) != "NETWORK" && std::ranges::none_of(words, may_be_operand);
 }
 
 /// The next gap in a line after its first operand, or after the place `from`; at the line's end if there is none.
@@ -342,6 +346,8 @@ void write_network_heading(Row& row, const NetworkHeading& heading) {
 
 /// Whether a row is the head of the table that printouts have below a network: `Symbol  Address  Comment`
 bool is_head_of_information(std::string_view line) {
+  const std::string_view text = trim(line);
+  if (!text.starts_with('S') && !text.starts_with('s') && !text.starts_with("符号")) return false;  // as nearly all lines
   const std::vector<std::string> words = split_words(upper_case(line));
   return words.size() >= 2 && words.size() <= 3 && (words[0] == "SYMBOL" || words[0] == "SYMBOLE" || words[0] == "符号") &&
          (words[1].starts_with("ADDRESS") || words[1].starts_with("ADR") || words[1] == "地址");
@@ -465,21 +471,22 @@ class PageReader {
   /// Cuts the program out of its fences, if it is between them. A single fence has lost the other.
   bool cut_out_fences() {
     std::vector<bool> inside;
-    bool in = false, any_inside = false, any_outside = false, any_fence = false;
-    const bool of_asciidoc =
-        std::ranges::any_of(rows_, [](const Row& row) { return lower_case(trim(row.text)).starts_with("[source"); });
+    bool in = false, any_inside = false, any_outside = false;
+    const bool of_asciidoc = std::ranges::any_of(rows_, [](const Row& row) {
+      const std::string_view text = trim(row.text);
+      return text.starts_with('[') && lower_case(text).starts_with("[source");
+    });
     const auto is_mark = [of_asciidoc](std::string_view line) {
       const std::string_view text = trim(line);
       return is_fence(line) || (of_asciidoc && text.starts_with("----") && text.find_first_not_of('-') == text.npos);
     };
+    if (std::ranges::none_of(rows_, is_mark, &Row::text)) return false;
     for (const Row& row : rows_) {
       const bool fence = is_mark(row.text);
       if (fence) in = !in;
       inside.push_back(in && !fence);
-      any_fence |= fence;
       if (!fence) (in ? any_inside : any_outside) |= looks_like_statement(row.text);
     }
-    if (!any_fence) return false;
     const bool cut = any_inside && !any_outside;
     for (std::size_t i = 0; i < rows_.size(); ++i)
       if (cut && !inside[i])
@@ -598,6 +605,7 @@ class PageReader {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       Row& row = rows_[i];
       const auto heading = network_heading(row.text);
+      if (!heading && !begins_with_network(row.text)) continue;
       const std::vector<std::string> words = heading ? std::vector<std::string>{} : split_words(code_of(row.text));
       const bool own = words.size() == 2 && upper_case(words[0]) == "NETWORK";
       if (!heading && !own) continue;
@@ -615,27 +623,32 @@ class PageReader {
   /// Puts // before a title in the line below the heading of a network. In a listing in small letters it may be a statement.
   void make_comments_of_titles() {
     const auto in_small_letters = [this](const Row& row) {
-      const std::vector<std::string> words = split_words(code_of(row.text));
-      return is_statement(row.text) && std::ranges::any_of(words[0], is_lower);
+      const std::string_view code = trim(code_of(row.text));
+      return std::ranges::any_of(code.substr(0, code.find_first_of(" \t")), is_lower) && is_statement(row.text);
     };
     if (!is_instruction_ || std::ranges::any_of(rows_, in_small_letters)) return;
     bool after_heading = false;
     for (Row& row : rows_) {
       const std::string_view code = trim(code_of(row.text));
       if (code.empty()) continue;
-      const std::vector<std::string> words = split_words(code);
+      if (begins_with_network(code)) {
+        const std::vector<std::string> words = split_words(code);
+        after_heading = words.size() == 2 && upper_case(words[0]) == "NETWORK" && is_digit(words[1][0]) &&
+                        trim(row.text).size() == code.size();
+        continue;
+      }
       if (after_heading && may_be_title_line(code) && !is_statement(code) && !network_heading(code))
         row.replace(0, 0, "// ", kComments);
-      after_heading = words.size() == 2 && upper_case(words[0]) == "NETWORK" && is_digit(words[1][0]) &&
-                      trim(row.text).size() == code.size();
+      after_heading = false;
     }
   }
 
   /// Where words follow a whole statement, and can be neither its operands nor a statement: `LD I0.0 Start button`.
   std::optional<std::size_t> words_after_statement(std::string_view line) const {
     const std::string_view code = trim_end(code_of(line));
-    const bool has_comment = code.size() < trim_end(line).size();
-    if (has_comment || code.size() > kLongestStatement || code.find_first_of("'\"|") != code.npos || takes_as_written(code))
+    const bool has_comment = code.size() < trim_end(line).size(), has_words = gap_after_operand(code, 0).to < code.size();
+    if (has_comment || !has_words || code.size() > kLongestStatement || code.find_first_of("'\"|") != code.npos ||
+        takes_as_written(code))
       return {};
     for (Part gap = gap_after_operand(code, 0); gap.to < code.size(); gap = gap_after_operand(code, gap.to)) {
       const std::string_view text = code.substr(gap.to), first = text.substr(0, text.find_first_of(" \t"));
@@ -654,17 +667,20 @@ class PageReader {
   /// close to its operand may have a wrong operand.
   void make_comments_of_words_after_statements() {
     if (!is_instruction_) return;
-    constexpr std::size_t kMost = 4;  // so many lines to one that is no statement
+    constexpr std::size_t kMost = 4;                // so many lines to one that is no statement
+    std::vector<std::optional<std::size_t>> words;  // in each row
     std::size_t close = 0, apart = 0, others = 0, lines = 0;
-    for (const Row& row : rows_) {
-      const auto words = words_after_statement(row.text);
-      lines += trim(code_of(row.text)).empty() ? 0U : 1U;
-      others += !words && !stands_without_mark(row.text) && !is_statement(row.text) ? 1U : 0U;
-      if (words) ++(has_words_apart(row.text) ? apart : close);
+    for (const Row& row : rows_)
+      if (words.push_back(words_after_statement(row.text)); words.back()) ++(has_words_apart(row.text) ? apart : close);
+    if (close + apart == 0 || (close == 1 && apart == 0)) return;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const std::string_view text = rows_[i].text;
+      lines += trim(code_of(text)).empty() ? 0U : 1U;
+      others += !words[i] && !stands_without_mark(text) && !is_statement(text) ? 1U : 0U;
     }
-    if (close + apart == 0 || (close == 1 && apart == 0) || kMost * others > lines) return;
-    for (Row& row : rows_)
-      if (const auto words = words_after_statement(row.text)) row.replace(*words, 0, "// ", kComments);
+    if (kMost * others > lines) return;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (words[i]) rows_[i].replace(*words[i], 0, "// ", kComments);
   }
 
   /// Puts // before a line of strokes between networks: `---------`
@@ -681,6 +697,7 @@ class PageReader {
     };
     if (!is_instruction_ || std::ranges::none_of(rows_, loads)) return;
     for (Row& row : rows_) {
+      if (gaps_in_addresses(row.text).empty()) continue;
       Row closed = without_gaps(row);
       if (closed.changes == row.changes) continue;
       if (takes_as_written(closed.text) && !takes_as_written(row.text)) row = std::move(closed);
@@ -703,8 +720,7 @@ class PageReader {
 
   /// Takes the tables that a printout has below its networks: each says the symbols of its network.
   void take_symbol_information() {
-    const auto is_network = [](const Row& row) { return upper_case(trim(row.text).substr(0, 7)) == "NETWORK"; };
-    if (std::ranges::none_of(rows_, is_network)) return;
+    if (std::ranges::none_of(rows_, begins_with_network, &Row::text)) return;
     std::set<std::string> known;
     bool inside = false;
     for (Row& row : rows_) {
@@ -718,8 +734,9 @@ class PageReader {
           row.replace(0, static_cast<std::size_t>(words.data() - row.text.data()), "// ", kInformation);
       }
       const bool head = is_head_of_information(row.text);
+      if (!head && !inside) continue;
       const std::vector<std::string> words = split_words(row.text);
-      inside = head || (inside && words.size() >= 2 && !is_network(row) && looks_like_statement("LD " + words[1]));
+      inside = head || (words.size() >= 2 && !begins_with_network(row.text) && looks_like_statement("LD " + words[1]));
       if (!inside) continue;
       if (known.insert(head ? std::string() : words[0] + ' ' + words[1]).second) row.symbol = row.text;
       row.leave_out(kInformation);
@@ -741,6 +758,7 @@ class PageReader {
 
   /// Leaves out quotes around each line, with a comma behind them, too, as in the text of another program: `"LD I0.0",`
   bool leave_out_quotes() {
+    if (std::ranges::all_of(rows_, [](const Row& row) { return inside_quotes(row.text).from == 0; })) return false;
     std::vector<Row> whole = rows_;
     std::vector<std::size_t> bytes;
     std::size_t quoted = 0, statements = 0;
