@@ -1209,11 +1209,15 @@ class Options(Case):
         self.assertGreater(sum(map(len, kinds.values())), 100)
 
     def test_nonsense_is_refused_by_name(self):
+        """All of it where an option comes first; the verbs behind share its row of the table of keys, and are asked once each."""
+        asked = set()
         for verb in VERBS:
-            for option, kind, _ in self.listed(verb):
+            for option, kind, text in self.listed(verb):
                 if kind not in self.ANY_TEXT:
-                    for value in self.NONSENSE:
+                    row = option, kind, text
+                    for value in self.NONSENSE if row not in asked else self.NONSENSE[:1]:
                         self.refused(verb, option, value)
+                    asked.add(row)
 
     def test_no_option_takes_an_empty_value(self):
         for verb in VERBS:
