@@ -30,8 +30,7 @@ std::string words_of(const stl::Statement& statement) {
 }
 
 bool is_drawn_as_head(const Instruction& instruction) {
-  return instruction.structure == Structure::SubroutineHead || instruction.structure == Structure::InterruptHead ||
-         instruction.structure == Structure::Label;
+  return begins_routine(instruction.structure) || instruction.structure == Structure::Label;
 }
 
 /// Whether it does something, as a coil or a box does, and is no contact.

@@ -114,6 +114,11 @@ enum class Structure : std::uint8_t {
   Compare  ///< its errors stop the CPU
 };
 
+/// Whether it is the head of a routine: SBR or INT.
+constexpr bool begins_routine(Structure structure) {
+  return structure == Structure::SubroutineHead || structure == Structure::InterruptHead;
+}
+
 /// The analyses (interpreter/analysis/) look for these effects.
 enum class Effect : std::uint8_t {
   None,

@@ -39,7 +39,7 @@ CoverageMap::CoverageMap(std::shared_ptr<const Program> program)
 
 bool CoverageMap::is_instruction(std::uint32_t op) const {
   const Structure structure = program_->ops[op].instruction->structure;
-  return structure != Structure::SubroutineHead && structure != Structure::InterruptHead && structure != Structure::Label;
+  return !begins_routine(structure) && structure != Structure::Label;
 }
 
 Tried::Tried(const CoverageMap& map) : marks(map.program().ops.size()) {

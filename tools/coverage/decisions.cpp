@@ -121,7 +121,7 @@ class ConditionReader {
 
   /// Routines begin with 1 on top, and so does a pass of a loop. What jumps lead to is reached with anything.
   void follow(Structure structure) {
-    if (structure == Structure::SubroutineHead || structure == Structure::InterruptHead || structure == Structure::For)
+    if (begins_routine(structure) || structure == Structure::For)
       begin_with(always_on());
     else if (structure == Structure::Label || structure == Structure::Next || structure == Structure::SegmentBegin ||
              structure == Structure::SegmentEnd)

@@ -10,9 +10,7 @@ namespace {
 
 Structure structure(const Op& op) { return op.instruction->structure; }
 
-bool is_head(const Op& op) {
-  return structure(op) == Structure::SubroutineHead || structure(op) == Structure::InterruptHead;
-}
+bool is_head(const Op& op) { return begins_routine(structure(op)); }
 
 std::vector<Routine> routines_of(const Program& program) {
   std::vector<Routine> routines{Routine{}};

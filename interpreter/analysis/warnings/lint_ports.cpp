@@ -227,8 +227,7 @@ std::optional<std::uint32_t> first_freeport(const Program& program, const PortIn
   bool in_interrupt = false;
   for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
     const Structure structure = program.ops[i].instruction->structure;
-    if (structure == Structure::InterruptHead || structure == Structure::SubroutineHead)
-      in_interrupt = structure == Structure::InterruptHead;
+    if (begins_routine(structure)) in_interrupt = structure == Structure::InterruptHead;
     const auto control = control_written(program, program.ops[i], port);
     if (control && is_freeport(*control) && !in_interrupt) return i;
   }
@@ -270,7 +269,7 @@ class Repetition {
     std::uint32_t head = 0;
     for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
       const Instruction& instruction = *program.ops[i].instruction;
-      if (is_head(instruction.structure)) {
+      if (begins_routine(instruction.structure)) {
         head = i;
         heads_.push_back(head);
       }
@@ -287,10 +286,6 @@ class Repetition {
   bool once(std::uint32_t op) const { return !again(op) && (head_[op] == 0 || is_started(head_[op])); }
 
  private:
-  static bool is_head(Structure structure) {
-    return structure == Structure::SubroutineHead || structure == Structure::InterruptHead;
-  }
-
   /// Whether some CALL, ATCH, XMT or RCV is so.
   template <class Condition>
   bool any(const Condition& condition) const {

@@ -659,8 +659,7 @@ class Checker {
     if (statements_.empty() || lacks_main_program() || !is_end(statements_.back().instruction->structure)) return false;
     return std::ranges::none_of(statements_, [&](const CheckedStatement& s) {
       const Structure structure = s.instruction->structure;
-      const bool bounds =
-          is_end(structure) || structure == Structure::SubroutineHead || structure == Structure::InterruptHead;
+      const bool bounds = is_end(structure) || begins_routine(structure);
       return bounds && (!s.operands_good || misplaced_.contains(place_of(s.statement->position)));
     });
   }

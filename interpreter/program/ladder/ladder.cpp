@@ -136,8 +136,7 @@ class NetworkWriter {
 
   void write_head(const LadderElement& head) {
     const Instruction* instruction = find_instruction(stl::upper_case(head.symbol));
-    const auto heads = {Structure::SubroutineHead, Structure::InterruptHead, Structure::Label};
-    if (!instruction || std::ranges::find(heads, instruction->structure) == heads.end())
+    if (!instruction || !(begins_routine(instruction->structure) || instruction->structure == Structure::Label))
       return complain(head.position,
                       fmt::format("'{}' is not the head of a routine or a label", stl::shortened(head.symbol)),
                       "expected SBR, INT or LBL and a number");

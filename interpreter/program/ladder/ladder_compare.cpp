@@ -37,8 +37,7 @@ std::string one_line(const stl::Statement& statement) {
 
 bool is_head(const stl::Statement& statement) {
   const Instruction* instruction = find_instruction(statement.mnemonic);
-  return instruction &&
-         (instruction->structure == Structure::SubroutineHead || instruction->structure == Structure::InterruptHead);
+  return instruction && begins_routine(instruction->structure);
 }
 
 std::vector<Network> drawn_networks(const stl::Source& source) {

@@ -198,7 +198,7 @@ class LogicReader {
 
   /// A routine begins with 1 on top; NEXT goes on with what FOR had, or with what the loop leaves.
   void follow(Structure structure) {
-    if (structure == Structure::SubroutineHead || structure == Structure::InterruptHead) {
+    if (begins_routine(structure)) {
       stack_.assign(1, gate(Gate::Kind::True));
       between_.loops.clear();
     } else if (structure == Structure::For) {

@@ -56,8 +56,7 @@ EffectTree::EffectTree(const Program& program, const RunRecord& known, const Run
     : program_(program), known_(known), without_(without), differences_(differences) {
   std::uint32_t routine = 0;
   for (std::uint32_t op = 0; op < program.ops.size(); ++op) {
-    const Structure structure = program.ops[op].instruction->structure;
-    if (structure == Structure::SubroutineHead || structure == Structure::InterruptHead) routine = op;
+    if (begins_routine(program.ops[op].instruction->structure)) routine = op;
     routine_.push_back(routine);
   }
   nodes_.push_back({.bits = changed.front()});

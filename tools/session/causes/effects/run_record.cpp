@@ -74,10 +74,6 @@ bool lets_the_system_store(const Instruction& instruction) {
   return instruction.effect == Effect::Receives || is_among(instruction.mnemonic, {"NETR", "NETW"});
 }
 
-bool begins_routine(const Instruction& instruction) {
-  return instruction.structure == Structure::SubroutineHead || instruction.structure == Structure::InterruptHead;
-}
-
 }  // namespace
 
 SeriesKey record_key(TraceKind kind, std::uint8_t where, std::uint16_t what) {
@@ -197,7 +193,7 @@ void SeriesRecorder::instruction(const InstructionRecord& record) {
   const Op& op = cpu_.program().ops[record.op];
   const Instruction& instruction = *op.instruction;
   Rung& rung = rungs_[level_];
-  if (begins_routine(instruction)) rung = {};
+  if (begins_routine(instruction.structure)) rung = {};
   const ContactForm form = contact_form(instruction);
   if (form.is_contact()) {
     if (form.join == Join::Load && rung.ended) rung.contacts.clear();

@@ -106,10 +106,7 @@ std::string not_executed_text(const State& state, std::uint32_t routine) {
 
 /// The interrupt routine that an instruction is in; nothing if it is in another one.
 std::optional<std::uint32_t> interrupt_routine_of(const Program& program, std::uint32_t op) {
-  const auto is_head = [](const Op& one) {
-    const Structure structure = one.instruction->structure;
-    return structure == Structure::InterruptHead || structure == Structure::SubroutineHead;
-  };
+  const auto is_head = [](const Op& one) { return begins_routine(one.instruction->structure); };
   const auto end = std::make_reverse_iterator(program.ops.begin() + op);
   const auto head = std::find_if(end, program.ops.rend(), is_head);
   const bool is_interrupt = head != program.ops.rend() && head->instruction->structure == Structure::InterruptHead;
