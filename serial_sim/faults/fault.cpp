@@ -251,11 +251,17 @@ const std::array kParameters{
               [](const Fault& f) { return fmt::format("{}", f.seed); }},
 };
 
-template <Misbehaviour misbehaviour>
-std::string read_code(std::string_view text, Fault& fault) {
+/// An answer misbehaves in one way.
+std::string misbehave(Fault& fault, Misbehaviour misbehaviour) {
   if (fault.misbehaviour != Misbehaviour::Nothing)
     return "comes after another misbehaviour of the same answer: give one of them";
   fault.misbehaviour = misbehaviour;
+  return {};
+}
+
+template <Misbehaviour misbehaviour>
+std::string read_code(std::string_view text, Fault& fault) {
+  if (std::string why = misbehave(fault, misbehaviour); !why.empty()) return why;
   return read_count<&Fault::code>(text, fault, misbehaviour == Misbehaviour::Station ? 0 : 1,
                                   misbehaviour == Misbehaviour::Function ? 127 : 255);
 }
@@ -268,10 +274,7 @@ std::string write_code(const Fault& fault) {
 /// Parses a misbehaviour that has no value: its name is enough.
 template <Misbehaviour misbehaviour>
 std::string read_named(std::string_view, Fault& fault) {
-  if (fault.misbehaviour != Misbehaviour::Nothing)
-    return "comes after another misbehaviour of the same answer: give one of them";
-  fault.misbehaviour = misbehaviour;
-  return {};
+  return misbehave(fault, misbehaviour);
 }
 
 template <Misbehaviour misbehaviour>
