@@ -122,7 +122,7 @@ void find_missing_freeport(const Facts& facts, std::size_t number, stl::Diagnost
 }
 
 /// The constant that a MOVB writes into the control byte of a port.
-std::optional<std::uint8_t> control_written(const Program& program, const Op& op, const PortInfo& port) {
+std::optional<std::uint8_t> written_to_control(const Program& program, const Op& op, const PortInfo& port) {
   const bool moves_into_it = op.instruction->effect == Effect::CopiesByte && op[1].at == port.control && !op[1].pointer;
   if (!moves_into_it || op[0].at < image::kConstants || op[0].pointer || op[0].unread()) return {};
   return program.constants[op[0].at - image::kConstants];
@@ -133,7 +133,7 @@ bool is_freeport(std::uint8_t control) { return (control & sm::kProtocol) == sm:
 /// Whether an instruction may put a port in another mode than PPI, of which a master answers too.
 bool may_leave_ppi(const Facts& facts, std::uint32_t number, const PortInfo& port) {
   if (!sets_up_port(facts, number, port)) return false;
-  const auto control = control_written(facts.program, facts.program.ops[number], port);
+  const auto control = written_to_control(facts.program, facts.program.ops[number], port);
   return !control || is_freeport(*control);
 }
 
@@ -228,7 +228,7 @@ std::optional<std::uint32_t> first_freeport(const Program& program, const PortIn
   for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
     const Structure structure = program.ops[i].instruction->structure;
     if (begins_routine(structure)) in_interrupt = structure == Structure::InterruptHead;
-    const auto control = control_written(program, program.ops[i], port);
+    const auto control = written_to_control(program, program.ops[i], port);
     if (control && is_freeport(*control) && !in_interrupt) return i;
   }
   return {};
