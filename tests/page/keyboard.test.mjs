@@ -31,6 +31,17 @@ const focused = () => page.evaluate(() => {
   };
 });
 
+const controls = () => page.$$eval('button, input, select, textarea, summary, a[href], [role=button]', (all) =>
+  all.filter((one) => one.offsetParent !== null && !one.disabled && one.tabIndex >= 0).length);
+
+/** Waits until no more controls come: what a pane asks the engine is there some time after the pane. */
+async function all_controls() {
+  for (let before = -1, now = await controls(); ; before = now, now = await controls()) {
+    if (now === before) return now;
+    await page.waitForTimeout(500);
+  }
+}
+
 /** Goes on with Tab from the first control of the page until it is left. */
 async function all_stops(most = 200) {
   await page.evaluate(() => document.querySelector('button').focus());
@@ -47,13 +58,12 @@ async function all_stops(most = 200) {
 test('Tab reaches each control once, named and with a ring, and leaves the page again', async () => {
   for (const pane of ['2', '3', '4']) {
     await press(pane);
+    const expected = await all_controls();
     const stops = await all_stops();
     assert.deepEqual(stops.filter((one) => one.name === ''), []);
     assert.deepEqual(stops.filter((one) => !one.ringed), []);
     assert.deepEqual(stops.filter((one) => !one.seen), []);
-    const controls = await page.$$eval('button, input, select, textarea, summary, a[href], [role=button]', (all) =>
-      all.filter((one) => one.offsetParent !== null && !one.disabled && one.tabIndex >= 0).length);
-    assert.ok(stops.length >= controls, `${stops.length} of ${controls} in pane ${pane}`);
+    assert.ok(stops.length >= expected, `${stops.length} of ${expected} in pane ${pane}`);
   }
 });
 
@@ -156,6 +166,7 @@ test('a new value is written and forced, and the menu of a row is beside it', as
   const [menu, button] = await page.evaluate(() => ['.menu', '[aria-label="Menu of VW300"]'].map((one) => document.querySelector(one).getBoundingClientRect().top));
   assert.ok(Math.abs(menu - button) < 300 && menu > 20, `${menu} beside ${button}`);
   await press('Escape');
+  await page.waitForSelector('.menu', { state: 'detached' });  // only then the focus is back at the button
   await page.focus('[aria-label^="Input I0.6"]');
   await press('Shift+F10');
   await page.waitForSelector('[aria-label^="Input I0.6"].push');
