@@ -14,7 +14,7 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
 endif()
 
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listed COMMAND_ERROR_IS_FATAL ANY)
-string(REGEX MATCHALL "\n[A-Za-z0-9_/]+\\.[ \n]" suites "${listed}")  # what is below them begins with blanks
+string(REGEX MATCHALL "\n[A-Za-z0-9_/]+\\.[ \n]" suites "\n${listed}")  # what is below them begins with blanks
 if(NOT suites)
   message(FATAL_ERROR "${PROGRAM} has no tests")
 endif()

@@ -251,7 +251,7 @@ const std::array kParameters{
               [](const Fault& f) { return fmt::format("{}", f.seed); }},
 };
 
-/// An answer misbehaves in one way.
+/// Makes an answer misbehave; the message if it already does, as it can in one way only.
 std::string misbehave(Fault& fault, Misbehaviour misbehaviour) {
   if (fault.misbehaviour != Misbehaviour::Nothing)
     return "comes after another misbehaviour of the same answer: give one of them";

@@ -1209,7 +1209,8 @@ class Options(Case):
         self.assertGreater(sum(map(len, kinds.values())), 100)
 
     def test_nonsense_is_refused_by_name(self):
-        """All of it where an option comes first; the verbs behind share its row of the table of keys, and are asked once each."""
+        """The first verb that has an option is given all of it. Other verbs take the option from the same row of the table of
+        keys, and are given one value each."""
         asked = set()
         for verb in VERBS:
             for option, kind, text in self.listed(verb):

@@ -34,7 +34,7 @@ const focused = () => page.evaluate(() => {
 const controls = () => page.$$eval('button, input, select, textarea, summary, a[href], [role=button]', (all) =>
   all.filter((one) => one.offsetParent !== null && !one.disabled && one.tabIndex >= 0).length);
 
-/** Waits until no more controls come: what a pane asks the engine is there some time after the pane. */
+/** Waits until no more controls come: the engine's answers are there some time after the pane that shows them. */
 async function all_controls() {
   for (let before = -1, now = await controls(); ; before = now, now = await controls()) {
     if (now === before) return now;

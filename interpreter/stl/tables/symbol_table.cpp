@@ -129,6 +129,11 @@ constexpr std::array<std::string_view, 14> kCommentHeadings{
     "COMMENT",     "COMMENTS",   "DESCRIPTION", "REMARK", "REMARKS", "KOMMENTAR", "BESCHREIBUNG",
     "COMMENTAIRE", "COMENTARIO", "COMMENTO",    "注释",   "註解",    "注解",      "说明"};
 
+/// Whether one of some words stands anywhere in a line in capitals.
+bool has_any(std::span<const std::string_view> words, std::string_view capitals) {
+  return std::ranges::any_of(words, [capitals](std::string_view word) { return capitals.find(word) != capitals.npos; });
+}
+
 /// Asterisks and colons around a heading are left out.
 bool is_one_of(std::span<const std::string_view> headings, std::string_view text) {
   constexpr std::size_t kLongestHeading = 40;
@@ -523,8 +528,7 @@ bool is_symbol_table(std::string_view text, const std::function<bool(std::string
 bool is_head_of_symbols(std::string_view line) {
   using enum Separator;
   const std::string capitals = heading_of(line);
-  const auto occurs = [&](std::string_view heading) { return capitals.find(heading) != capitals.npos; };
-  if (std::ranges::none_of(kAddressHeadings, occurs) || std::ranges::none_of(kNameHeadings, occurs)) return false;
+  if (!has_any(kAddressHeadings, capitals) || !has_any(kNameHeadings, capitals)) return false;
   return std::ranges::any_of(std::array{Tab, Semicolon, Comma, Bar, Blanks},
                              [&](Separator separator) { return headings(cells_of(line, separator)).has_value(); });
 }
@@ -551,8 +555,7 @@ bool is_status_chart(std::string_view text) {
   const auto lines = first_rows(text);
   const auto may_have_format = [](std::string_view line) {
     const std::string capitals = heading_of(line);
-    const auto occurs = [&](std::string_view word) { return capitals.find(word) != capitals.npos; };
-    return std::ranges::any_of(kFormats, occurs) || std::ranges::any_of(kFormatHeadings, occurs);
+    return has_any(kFormats, capitals) || has_any(kFormatHeadings, capitals);
   };
   if (std::ranges::none_of(lines, may_have_format)) return false;
   const Separator separator =
