@@ -5,17 +5,12 @@ import sys
 
 TYPES = {"html": "text/html; charset=utf-8", "css": "text/css; charset=utf-8", "js": "text/javascript; charset=utf-8",
          "wasm": "application/wasm", "svg": "image/svg+xml"}
-LINE = 120  # bytes
+LINE = 32  # bytes
 
 
-def literal(data):
-    """Octal escapes of three digits, which no character after them can make longer."""
-    text = "".join(chr(byte) if 32 <= byte < 127 and byte not in b'"\\?' else f"\\{byte:03o}" for byte in data)
-    return f'"{text}"'
-
-
-def lines_of(data):
-    return "\n    ".join(literal(data[at:at + LINE]) for at in range(0, len(data), LINE)) or '""'
+def numbers_of(data):
+    """A literal of characters may be too long for a compiler: the standard asks for 65 536."""
+    return ",\n    ".join(",".join(map(str, data[at:at + LINE])) for at in range(0, len(data), LINE))
 
 
 def main():
@@ -24,9 +19,9 @@ def main():
     arrays, rows = [], []
     for number, (name, path) in enumerate(files):
         data = pathlib.Path(path).read_bytes()
-        arrays.append(f"const char kFile{number}[] =\n    {lines_of(data)};\n")
+        arrays.append(f"const unsigned char kFile{number}[{len(data)} + 1] = {{\n    {numbers_of(data)}}};\n")
         served = "" if name == "index.html" else name
-        rows.append(f'      {{"{served}", "{TYPES[name.rsplit(".", 1)[-1]]}", {{kFile{number}, {len(data)}}}}}')
+        rows.append(f'      {{"{served}", "{TYPES[name.rsplit(".", 1)[-1]]}", {{reinterpret_cast<const char*>(kFile{number}), {len(data)}}}}}')
     output.parent.mkdir(parents=True, exist_ok=True)
     output.write_text("// Made by embed.py.\n#include \"tools/faces/page/server/assets.hpp\"\n\nnamespace s7200::tools::page {\nnamespace {\n\n"
                       + "\n".join(arrays)
