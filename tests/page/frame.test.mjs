@@ -23,11 +23,11 @@ test('steps go forwards and backwards, by buttons and by keys', async () => {
   await page.keyboard.press('Home');
   await page.click('#do-scan');
   await page.click('#do-scan');
-  await page.waitForFunction(() => document.querySelector('.scan-number').textContent === 'scan 2');
+  await page.waitForFunction(() => document.querySelector('.scan-number').textContent === 'scan 3');
   const later = await moment(page);
   assert.ok(later > 0);
   await page.keyboard.press('Shift+S');
-  await page.waitForFunction(() => document.querySelector('.scan-number').textContent === 'scan 1');
+  await page.waitForFunction(() => document.querySelector('.scan-number').textContent === 'scan 2');
   assert.ok(await moment(page) < later);
   assert.equal(await page.textContent('.tag'), 'past');
   await page.keyboard.press('End');

@@ -69,7 +69,7 @@ test('Tab reaches each control once, named and with a ring, and leaves the page 
 
 test('lines are chosen, found, run through and stopped at; an address has its menu', async () => {
   await press('s', 's');
-  await shows('scan 2', '.scan-number');
+  await shows('scan 3', '.scan-number');
   await press('/');
   await page.keyboard.type('LD');
   await press('Enter');

@@ -95,7 +95,7 @@ test('a page connects to s7200 that is started at its address again, and begins 
     await page.waitForSelector('.notice.info:has-text("another session")');
     await page.waitForSelector('[aria-label^="Input I0.2"][aria-checked=false]');
     await page.click('#do-scan');
-    await page.waitForFunction(() => document.querySelector('.scan-number').textContent === 'scan 1');
+    await page.waitForFunction(() => document.querySelector('.scan-number').textContent === 'scan 2');
   }
   assert.deepEqual(page.troubles.filter((one) => !/WebSocket connection/.test(one)), []);
   await page.close();

@@ -273,24 +273,50 @@ struct FramesOfPart {
 TEST(Pages, DoNotTakeAnAnswerForARequestWhereAPartBeginsBetweenThem) {
   const FramesOfPart reads({"01 03 00 0a 00 02", "01 03 00 0a 00 02", "01 03 00 0a 00 03"}, 0);
   ASSERT_EQ(reads.all.size(), 6U);
-  ASSERT_EQ(reads.of_part.size(), 5U);
-  EXPECT_TRUE(reads.of_part[0].ends_with(": an answer of station 1")) << reads.of_part[0];
-  for (const std::size_t i : {1U, 2U, 3U, 4U}) EXPECT_EQ(reads.of_part[i], reads.all[i + 1]);
-  EXPECT_EQ(reads.answers, 2U);
+  EXPECT_EQ(reads.of_part, std::vector(reads.all.begin() + 1, reads.all.end()));
+  EXPECT_EQ(reads.answers, 3U);
 }
 
 TEST(Pages, DoNotTakeAValueThatWasWrittenForARequestWhereAPartBeginsBetweenThem) {
   const FramesOfPart writes({"01 06 00 00 00 01", "01 06 00 00 00 02", "01 06 00 00 00 02"}, 0);
-  ASSERT_EQ(writes.of_part.size(), 5U);
-  for (const std::size_t i : {1U, 2U, 3U, 4U}) EXPECT_EQ(writes.of_part[i], writes.all[i + 1]);
-  EXPECT_EQ(writes.answers, 2U);
+  EXPECT_EQ(writes.of_part, std::vector(writes.all.begin() + 1, writes.all.end()));
+  EXPECT_EQ(writes.answers, 3U);
 }
 
-TEST(Pages, DoNotTakeAnAnswerForARequestWhereAPartBeginsWithinOne) {
+TEST(Pages, SeeAFrameWholeWhereAPartBeginsWithinIt) {
   const FramesOfPart reads({"01 03 00 0a 00 02", "01 03 00 0a 00 02", "01 03 00 0a 00 02"}, 3 * kMillisecond);
-  ASSERT_EQ(reads.of_part.size(), 6U);
-  EXPECT_TRUE(reads.of_part[1].ends_with(": an answer of station 1")) << reads.of_part[1];
-  for (const std::size_t i : {2U, 3U, 4U, 5U}) EXPECT_EQ(reads.of_part[i], reads.all[i]);
+  EXPECT_EQ(reads.of_part, reads.all);
+}
+
+/// A request can be longer ago than the longest frame takes.
+TEST(Pages, KnowAnAnswerByItsLengthWhereItsRequestIsLongAgo) {
+  Asked session(
+      "LD SM0.1\nMOVB 16#49, SMB30\nMOVD 16#04010302, VD0\nMOVD 16#1234B533, VD4\nMOVB 7, VB0\nLD I0.0\nEU\nXMT VB0, 0\nMEND\n");
+  session("continue 10ms");
+  session("send 01 03 00 0a 00 01 crc");
+  session("continue 500ms");
+  session("set I0.0=1");
+  session("continue 50ms");
+  const Json whole = track(session.json("spans start end"), "frames", "port 0 frames")["spans"];
+  ASSERT_EQ(whole.size(), 2U);
+  const Json part = session.json(fmt::format("spans {}ns end", whole[1]["at_ns"].get<Time>() - 1))["tracks"];
+  const Json frames = track({{"tracks", part}}, "frames", "port 0 frames")["spans"];
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_TRUE(has(frames[0]["text"].get<std::string>(), "an answer of station 1")) << frames[0]["text"] << whole[1]["text"];
+}
+
+TEST(Pages, SeeACharacterAndItsFrameFromWithinABit) {
+  Asked session(our_slave());
+  session("continue 100ms");
+  session("send 01 03 00 0a 00 02 crc");
+  session("continue 100ms");
+  const Json whole = session.json("spans start end");
+  for (const auto& [kind, name] : {std::pair("characters", "port 0 received"), std::pair("frames", "port 0 frames")}) {
+    const Json first = track(whole, kind, name)["spans"][0];
+    const Time within = first["at_ns"].get<Time>() + 500 * kMicrosecond;
+    const Json part = session.json(fmt::format("spans {}ns {}ns", within, within + 1000));
+    EXPECT_EQ(track(part, kind, name)["spans"], Json::array({first}));
+  }
 }
 
 TEST(Pages, SeeThatACharacterHasAWrongParity) {

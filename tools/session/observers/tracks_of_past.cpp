@@ -34,14 +34,17 @@ class Tracks {
  public:
   explicit Tracks(const TracksWanted& wanted) : wanted_(wanted) {}
 
-  void add(TrackKind kind, std::string name, std::size_t station, TrackSpan span) {
-    named(kind, std::move(name), station).track.add(std::move(span));
+  /// What is not in the part is left out; what reaches into it is whole.
+  void add(TrackKind kind, std::string name, std::size_t station, TrackSpan span,
+           std::optional<SerialFormat> format = {}) {
+    if (!is_in_part(span.at, span.end)) return;
+    NamedTrack& track = named(kind, std::move(name), station);
+    if (format) track.format = format;
+    track.track.add(std::move(span));
   }
 
-  NamedTrack& named(TrackKind kind, std::string name, std::size_t station) {
-    const auto [place, is_new] = places_.try_emplace({station, kind, name}, all_.size());
-    if (is_new) all_.push_back({kind, std::move(name), station, {}, Track(wanted_.from, wanted_.to, wanted_.most)});
-    return all_[place->second];
+  void add(AnsweredFrame answered) {
+    if (is_in_part(answered.answer_at, answered.answer_end)) longest_.add(std::move(answered));
   }
 
   LongestAnswers& longest() { return longest_; }
@@ -58,6 +61,15 @@ class Tracks {
 
  private:
   using Key = std::tuple<std::size_t, TrackKind, std::string>;
+
+  bool is_in_part(Time at, Time end) const { return at <= wanted_.to && (end > wanted_.from || at == wanted_.from); }
+
+  NamedTrack& named(TrackKind kind, std::string name, std::size_t station) {
+    const auto [place, is_new] = places_.try_emplace({station, kind, name}, all_.size());
+    if (is_new) all_.push_back({kind, std::move(name), station, {}, Track(wanted_.from, wanted_.to, wanted_.most)});
+    return all_[place->second];
+  }
+
   const TracksWanted& wanted_;
   std::map<Key, std::size_t> places_{};
   std::deque<NamedTrack> all_{};
@@ -104,7 +116,7 @@ class FrameTrack {
     } else if (open_) {
       open_->answer_at = frame_.at;
       open_->answer_end = frame_.end;
-      tracks_.longest().add(std::move(*open_));
+      tracks_.add(std::move(*open_));
       open_.reset();
     }
   }
@@ -184,7 +196,7 @@ class RunningTrack {
 class StationTracks {
  public:
   StationTracks(Tracks& tracks, const serial::Simulation& simulation, std::size_t station,
-                const TraceReasons::Disabled& interrupts)
+                TraceReasons::Disabled interrupts)
       : tracks_(tracks),
         simulation_(simulation),
         program_(simulation.cpu().program()),
@@ -193,14 +205,13 @@ class StationTracks {
         listing_(program_),
         event_text_(program_),
         reasons_(program_),
+        interrupts_(interrupts),
         routine_track_(tracks, TrackKind::Routines, station),
         network_track_(tracks, TrackKind::Networks, station) {
-    reasons_.forget(interrupts);
     for (std::uint32_t op = 0; op < program_.ops.size(); ++op) {
       const bool begins = op == 0 || networks_.routine_of(op) != networks_.routine_of(op - 1);
       routine_begin_.push_back(begins ? op : routine_begin_.back());
     }
-    if (simulation.plc().executes()) begin_scan(simulation.cpu().state().scan_begin, scan_now());
     for (std::uint8_t port = 0; port < kPorts.size(); ++port) frames_.emplace_back(tracks, station, port);
   }
 
@@ -256,6 +267,13 @@ class StationTracks {
     reasons_.note(record);
   }
 
+  /// The part that is looked at begins: the scan that the CPU is in reaches into it.
+  void begin_part() {
+    in_part_ = true;
+    reasons_.forget(interrupts_);
+    if (simulation_.plc().executes()) begin_scan(simulation_.cpu().state().scan_begin, scan_now());
+  }
+
   void instruction(const InstructionRecord& record, bool with_networks) {
     reasons_.note(record);
     if (!with_networks) return;
@@ -265,15 +283,20 @@ class StationTracks {
     network_track_.note(record, networks_.first_of(record.op), listing_.network_of(record.op), acts);
   }
 
-  void finish(Time at) {
+  void end_part(Time at) {
     finish_scan(at, scan_now() + 1);
     routine_track_.finish();
     network_track_.finish();
+    in_part_ = false;
+  }
+
+  void finish_frames() {
     for (FrameTrack& frames : frames_) frames.finish();
   }
 
  private:
   void begin_scan(Time at, std::uint64_t number) {
+    if (!in_part_) return;
     finish_scan(at, number);
     scan_number_ = number;
     scan_ = {.at = at, .text = fmt::format("scan {}", number)};
@@ -315,10 +338,8 @@ class StationTracks {
     const Ignored why{record.code};
     if (!dropped || why == Ignored::NotAttached || why == Ignored::NoRcvWaits)
       frames_[record.port].add(span, record.byte, sent, format.silence());
-    NamedTrack& characters =
-        tracks_.named(TrackKind::Characters, fmt::format("port {} {}", record.port, sent ? "sent" : "received"), station_);
-    characters.format = format;
-    characters.track.add(std::move(span));
+    tracks_.add(TrackKind::Characters, fmt::format("port {} {}", record.port, sent ? "sent" : "received"), station_,
+                std::move(span), format);
   }
 
   void add_instant(TrackKind kind, const TraceRecord& record) {
@@ -342,8 +363,10 @@ class StationTracks {
   Listing listing_;
   EventText event_text_;
   TraceReasons reasons_;
+  TraceReasons::Disabled interrupts_;  ///< where the part begins
   RunningTrack routine_track_, network_track_;
   std::vector<FrameTrack> frames_{};
+  bool in_part_ = false;
   TrackSpan scan_{};
   bool in_scan_ = false;
   std::uint64_t scan_number_ = 0;
@@ -386,11 +409,10 @@ class TracksReader final : public Reader {
     for (std::size_t station = 0; station < history.stations(); ++station)
       stations_.emplace_back(tracks_, history.station(station), station,
                              interrupts_disabled(history, station, stop_request));
-    for (const MemoryRange& range : wanted.watched)
-      values_.emplace_back(tracks_, wanted.watched_at, range, watched_state(), wanted.from);
   }
 
-  bool wants_scans() const override { return with_networks_; }
+  bool wants_instructions() const override { return in_part_; }
+  bool wants_scans() const override { return in_part_ && with_networks_; }
   void record(const TraceRecord& record) override { stations_[history_.told_of()].record(record); }
 
   /// What the system changes between two instructions is seen in front of the next one.
@@ -404,10 +426,23 @@ class TracksReader final : public Reader {
     if (history_.told_of() == wanted_.watched_at) look(record.end);
   }
 
-  std::vector<NamedTrack> finish(Time at) {
-    for (StationTracks& station : stations_) station.finish(at);
+  void begin_part() {
+    in_part_ = true;
+    for (StationTracks& station : stations_) station.begin_part();
+    for (const MemoryRange& range : wanted_.watched)
+      values_.emplace_back(tracks_, wanted_.watched_at, range, watched_state(), wanted_.from);
+  }
+
+  void end_part(Time at) {
+    in_part_ = false;
+    for (StationTracks& station : stations_) station.end_part(at);
     look(at);
     for (ValueTrack& value : values_) value.finish(at);
+    values_.clear();
+  }
+
+  std::vector<NamedTrack> take() {
+    for (StationTracks& station : stations_) station.finish_frames();
     return tracks_.take();
   }
 
@@ -423,10 +458,24 @@ class TracksReader final : public Reader {
   History& history_;
   const TracksWanted& wanted_;
   bool with_networks_;
+  bool in_part_ = false;  ///< before and after it only what reaches into it is looked at: characters of a frame
   Tracks tracks_;
   std::deque<StationTracks> stations_{};
   std::deque<ValueTrack> values_{};
 };
+
+/// A frame that long may have begun before a part, or end after it.
+Time longest_frame(const History& history) {
+  Time longest = 0;
+  for (std::size_t station = 0; station < history.stations(); ++station) {
+    const serial::Simulation& simulation = history.station(station);
+    for (std::uint8_t port = 0; port < simulation.cpu().program().model->ports; ++port) {
+      const SerialFormat format = simulation.plc().port_format(port);
+      longest = std::max(longest, static_cast<Time>(modbus::kLongestRtuFrame) * format.character_time() + format.silence());
+    }
+  }
+  return longest;
+}
 
 /// The end of a part by its time: all that was done to the simulation up to then has been done.
 Moment end_at(const History& history, Time time) {
@@ -450,15 +499,28 @@ std::string_view word_of(TrackKind kind) { return kWords[static_cast<std::size_t
 
 TracksOfPast tracks_of_past(History& history, const TracksWanted& wanted, StopToken stop_request) {
   const Moment now = history.now(), oldest = history.usage().oldest;
+  const Time reach = longest_frame(history);
   TracksOfPast past{.to = wanted.to, .with_networks = wanted.to - wanted.from <= kLongestWithNetworks};
-  if (wanted.from <= oldest.time)
-    history.go_to(oldest);
-  else
-    past.interrupted = !history.go_to(wanted.from);
+  const auto go_to = [&](Time time) {
+    if (time <= oldest.time)
+      history.go_to(oldest);
+    else
+      past.interrupted = past.interrupted || !history.go_to(time);
+  };
+  go_to(wanted.from);
   TracksReader reader(history, wanted, past.with_networks, stop_request);
-  past.interrupted = past.interrupted || !history.play(reader, end_at(history, wanted.to));
+  go_to(wanted.from - reach);
+  const auto play_to = [&](Time time) {
+    if (history.now().time > time) return;
+    past.interrupted = past.interrupted || !history.play(reader, end_at(history, time));
+  };
+  play_to(wanted.from);
+  reader.begin_part();
+  play_to(wanted.to);
   if (past.interrupted) past.to = std::min(wanted.to, history.now().time);
-  past.tracks = reader.finish(past.to);
+  reader.end_part(past.to);
+  play_to(std::min(wanted.to + reach, history.newest().time));
+  past.tracks = reader.take();
   past.longest = reader.take_longest();
   history.go_to(now);
   return past;

@@ -18,7 +18,7 @@ Json moments_json(const Session& session) {
           {"newest_ns", session.history.newest().time},
           {"in_the_past", session.history.in_the_past()},
           {"station", session.is_system() ? session.name_of(session.focus()) : ""},
-          {"scan", state.scans},
+          {"scan", state.scans + 1},
           {"mode", mode_of(session)},
           {"op", op ? Json(*op) : Json()},
           {"line", op ? Json(session.listing().line_of(*op)) : Json()},
