@@ -9,6 +9,7 @@ import { browser, kDesktop, kPhone, moment, picture } from './support.mjs';
 
 const kSlave = 'stl_programs/modbus_slave.stl';
 const kMost = 2e6;  // bytes
+const kOfADay = 145e3;  // bytes that a day polled each second adds to the page: tests/page/bench
 const file = (name) => path.join(process.env.REPORTS, name);
 let chrome;
 before(async () => { chrome = await browser(); });
@@ -68,6 +69,8 @@ test('the address names the moment', async () => {
 test('an hour of polling opens with its picture, and any moment of it is computed', async () => {
   s7200(0, 'master', kSlave, 'read', '40011:2', '--every', '1s', '--count', '3600', '--report', file('hour.html'));
   assert.ok(statSync(file('hour.html')).size < kMost, `${statSync(file('hour.html')).size} bytes`);
+  const empty = statSync(file('share/s7200/page.html')).size;
+  assert.ok(empty + kOfADay < kMost, `${empty} bytes of the page leave too little for a day`);
   const page = await open('hour.html');
   assert.equal(await moment(page), 0, 'nothing is computed before one looks');
   await page.waitForFunction(() => document.querySelector('.track-names').textContent.includes('port 0 frames'));

@@ -25,7 +25,7 @@ const wasi = new WASI({version: 'preview1'});
 WebAssembly.instantiate(fs.readFileSync(process.argv[1]), wasi.getImportObject ? wasi.getImportObject()
     : {wasi_snapshot_preview1: wasi.wasiImport}).then(({instance}) => wasi.start(instance));
 """
-FOR_WASM = "clang-19 lld-19 llvm-19 wasi-libc libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 nodejs"
+FOR_WASM = "clang-19 lld-19 llvm-19 binaryen wasi-libc libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 nodejs"
 FOR_MINGW = {"x86_64-w64-mingw32-g++-posix": "g++-mingw-w64-x86-64-posix", WINE: "wine64"}
 
 

@@ -24,28 +24,31 @@ export class Conversation {
   private next = 1;
   private readonly waiting = new Map<number, (reply: Reply<any>) => void>();
 
-  constructor(private readonly onlooker: Onlooker, private readonly send: (message: object) => void) {}
+  constructor(private readonly onlooker: Onlooker, private readonly send: (text: string) => void) {}
 
   ask<Json>(message: object): Promise<Reply<Json>> {
     const id = this.next++;
     return new Promise((done) => {
       this.waiting.set(id, done);
-      this.send({ id, ...message });
+      this.tell({ id, ...message });
     });
   }
 
   tell(message: object): void {
-    this.send(message);
+    this.send(JSON.stringify(message));
   }
 
-  received(message: any): void {
+  /** Returns the message. */
+  received(text: string): any {
+    const message = JSON.parse(text);
     if (message.event !== undefined) {
       this.onlooker.notified(message as Notification);
-      return;
+      return message;
     }
     const done = this.waiting.get(message.id);
     this.waiting.delete(message.id);
     done?.(message as Reply<any>);
+    return message;
   }
 
   /** No reply will come any more. */
@@ -66,8 +69,8 @@ export class SocketEngine implements Engine {
   private over = false;
 
   constructor(private readonly address: string, private readonly onlooker: Onlooker) {
-    this.conversation = new Conversation(onlooker, (message) => {
-      if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+    this.conversation = new Conversation(onlooker, (text) => {
+      if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(text);
       else this.conversation.abandon('there is no connection to s7200');
     });
     this.connect();
@@ -91,9 +94,7 @@ export class SocketEngine implements Engine {
       this.onlooker.connection('connected');
     };
     socket.onmessage = ({ data }) => {
-      const message = JSON.parse(String(data));
-      if (message.event === 'ended') this.over = true;
-      this.conversation.received(message);
+      if (this.conversation.received(String(data)).event === 'ended') this.over = true;
     };
     socket.onclose = () => {
       this.conversation.abandon(this.over ? 'the session has ended' : 'the connection to s7200 is lost');
@@ -113,7 +114,7 @@ export class WorkerEngine implements Engine {
 
   constructor(address: string | URL, onlooker: Onlooker) {
     this.worker = new Worker(address);  // a page that is a file may have no worker that is a module
-    this.conversation = new Conversation(onlooker, (message) => this.worker.postMessage(message));
+    this.conversation = new Conversation(onlooker, (text) => this.worker.postMessage(text));
     this.worker.onmessage = ({ data }) => this.conversation.received(data);
     this.worker.onerror = (event) => {
       this.conversation.abandon(`the engine in the browser has failed: ${event.message ?? 'it cannot be loaded'}`);

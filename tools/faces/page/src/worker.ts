@@ -70,20 +70,20 @@ async function load(): Promise<Engine> {
   return engine;
 }
 
-/** Carries out a message, and reads what came of it. */
-function take(engine: Engine, message: unknown): unknown[] {
-  const bytes = new TextEncoder().encode(JSON.stringify(message));
+/** Carries out a message, and reads what came of it: JSON, as over the WebSocket. */
+function take(engine: Engine, message: string): string[] {
+  const bytes = new TextEncoder().encode(message);
   const room = engine.room(bytes.length); // before memory is looked at: it may have grown
   new Uint8Array(engine.memory.buffer).set(bytes, room);
   engine.take(bytes.length);
-  const all: unknown[] = [];
+  const all: string[] = [];
   for (let size = engine.next(); size >= 0; size = engine.next())
-    all.push(JSON.parse(new TextDecoder().decode(new Uint8Array(engine.memory.buffer, engine.message(), size))));
+    all.push(new TextDecoder().decode(new Uint8Array(engine.memory.buffer, engine.message(), size)));
   return all;
 }
 
 const engine = load();
-self.onmessage = async ({ data }: MessageEvent) => {
+self.onmessage = async ({ data }: MessageEvent<string>) => {
   for (const message of take(await engine, data)) self.postMessage(message);
 };
 engine.catch((error: unknown) => setTimeout(() => { throw error; })); // an error of the worker, which the page hears of
