@@ -557,6 +557,19 @@ TEST(Why, CharactersLostBecauseTheirQueueWasFullAreNotTaken) {
   EXPECT_TRUE(has(session.out.str(), ": INT 1 took them"));
 }
 
+/// At 38400 baud a character takes 0.286 ms.
+TEST(Why, CharactersAreLostWhereTheirRoutineTakesLongerThanACharacter) {
+  AtPrompt session(
+      "LD SM0.1\nMOVB 16#41, SMB30\nATCH 1, 8\nENI\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nMOVR 1.5, AC0\n*R 1.5, AC0\n"
+      "*R 1.5, AC0\n*R 1.5, AC0\n*R 1.5, AC0\nRETI\n");
+  std::string many;
+  for (int i = 0; i < 60; ++i) many += " 41";
+  session("continue 50ms; break lost; send" + many + "; continue");
+  const std::string why = session("why");
+  EXPECT_TRUE(has(why, "1 was lost because the interrupt queue was full; until then a character came every 286.458 us, and INT 1 took "))
+      << why;
+}
+
 TEST(Why, ACharacterThatIsLostIsNamedWhileTheRequestIsBeingSent) {
   AtPrompt session("LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nDISI  // too long\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n");
   session("continue 50ms; break lost; send 41 42 43 44 45 46 47 48; continue");

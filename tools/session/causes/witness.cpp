@@ -27,6 +27,7 @@ void Witness::record(const TraceRecord& record) {
   for (const auto& frame : reasons.unanswered(record)) left_.push_back({record.at, record.at, frame});
   if (record.kind == TraceKind::ModeChange) stopped_ = record.code == 0;
   note_for_interrupts(record);
+  if (record.kind == TraceKind::ServiceEnd) services_.push_back({record.routine, record.since, record.at});
   if (!stopped_) note_scan(record);
   if (!stopped_) reasons.note(record);
 }
@@ -97,6 +98,12 @@ std::vector<Witness::Left> Witness::left_since(Time since, Time now) const {
 std::vector<Witness::ForInterrupt> Witness::for_interrupts_since(std::uint8_t port, Time since) const {
   std::vector<ForInterrupt> all = for_interrupts_;
   std::erase_if(all, [&](const ForInterrupt& one) { return one.port != port || one.since < since; });
+  return all;
+}
+
+std::vector<Witness::Service> Witness::services_since(Time since) const {
+  std::vector<Service> all = services_;
+  std::erase_if(all, [&](const Service& one) { return one.at < since; });
   return all;
 }
 

@@ -42,6 +42,14 @@ class Witness final : public Reader {
   };
   std::vector<ForInterrupt> for_interrupts_since(std::uint8_t port, Time since) const;
 
+  /// An interrupt routine that was executed.
+  struct Service {
+    std::uint8_t routine = 0;
+    Time at = 0, end = 0;
+  };
+  /// Those that have begun since then.
+  std::vector<Service> services_since(Time since) const;
+
   /// An RCV that had no power flow, and the contacts of its rung: `LD SM0.1: SM0.1=0`.
   struct PassedOver {
     Time at = 0;
@@ -91,6 +99,7 @@ class Witness final : public Reader {
   std::vector<Left> left_;
   Time character_ = 0;  // start edge of the last one received
   std::vector<ForInterrupt> for_interrupts_;
+  std::vector<Service> services_;
   std::unordered_map<std::uint32_t, PassedOver> passed_over_;  // by op
   std::vector<Refused> refused_;
   std::optional<StopExecuted> stop_executed_;

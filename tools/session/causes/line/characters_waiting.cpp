@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 
 #include "interpreter/model/ports.hpp"
 #include "tools/session/causes/inquiry.hpp"
@@ -28,6 +29,32 @@ std::size_t lost_of(const std::vector<Witness::ForInterrupt>& all, Time since) {
 
 std::string lost_text(std::size_t characters, std::string_view queue) {
   return fmt::format("{} {} lost because {} was full", characters, characters == 1 ? "was" : "were", queue);
+}
+
+/// `; until then a character came every 286.458 us, and INT 123 took 331.2 us, 27 times`: if routines took most of the time
+/// from the first character to the first that was lost, each with its mean.
+std::string served_text(const Inquiry& inquiry, const std::vector<Witness::ForInterrupt>& all,
+                        std::vector<Witness::ForInterrupt>::const_iterator lost) {
+  struct Sum {
+    Time took = 0;
+    int times = 0;
+  };
+  std::map<std::uint8_t, Sum> routines;
+  Time took = 0;
+  for (const Witness::Service& one : inquiry.witness().services_since(all.front().at)) {
+    if (one.end > lost->at) break;
+    took += one.end - one.at;
+    routines[one.routine].took += one.end - one.at;
+    ++routines[one.routine].times;
+  }
+  const Time length = lost->at - all.front().at;
+  if (took < length / 2 || routines.empty()) return {};
+  std::vector<std::string> said;
+  for (const auto& [routine, sum] : routines)
+    said.push_back(fmt::format("INT {} took {}, {}", routine, format_duration(sum.took / sum.times),
+                               sum.times == 1 ? "once" : fmt::format("{} times", sum.times)));
+  return fmt::format("; until then a character came every {}, and {}", format_duration(length / (lost - all.begin())),
+                     fmt::join(said, ", "));
 }
 
 std::size_t waiting_in_the_queue(const State& state, std::uint8_t port) {
@@ -78,7 +105,8 @@ void find_characters_lost(Inquiry& inquiry, std::size_t known) {
   const auto first = std::ranges::find_if(all, &Witness::ForInterrupt::lost);
   if (lost == 0) return;
   inquiry.add_first({first->since, fmt::format("of {} since {}, {}", characters_text(all.size()),
-                                               moment_text(all.front().since), lost_text(lost, "the interrupt queue"))});
+                                               moment_text(all.front().since), lost_text(lost, "the interrupt queue")) +
+                                    served_text(inquiry, all, first)});
 }
 
 }  // namespace s7200::tools
