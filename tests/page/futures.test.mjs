@@ -35,6 +35,11 @@ test('an input that is switched in one future only parts them', async () => {
   await page.waitForFunction(() => /both futures part at 1\d\d\./.test(document.querySelector('.timeline .readout').textContent));
   await page.waitForSelector('[aria-label="Output Q0.0 on"]');
   await picture(page, 'futures');
+  const parting = await page.textContent('.timeline .readout');
+  await page.evaluate(() => document.activeElement?.blur());
+  for (let i = 0; i < 6; ++i) await page.keyboard.press('+');
+  await page.waitForTimeout(300);
+  assert.equal(await page.textContent('.timeline .readout'), parting, 'wherever one looks');
   await page.click('#timeline-compare');
   await page.waitForFunction(() => document.querySelector('.track-name.before') === null);
   assert.deepEqual(page.troubles, []);

@@ -175,6 +175,22 @@ test('the ladder has the power flow of the moment, and its addresses have their 
   await page.close();
 });
 
+test('a network that is chosen stands at the top of the ladder, however high those above it are', async () => {
+  const page = await open(chrome, await start('stl_programs/gateway_pc1200_modbus.stl'));
+  await page.click('text=LAD');
+  const lines = await page.$$eval('.navigator optgroup option', (all) => all.map((one) => one.value));
+  for (const line of [lines.at(-20), lines[6], lines[3]]) {
+    await page.selectOption('.navigator', line);
+    await page.waitForFunction((line) => {
+      const network = document.querySelector(`#network-${line}`);
+      return network && Math.abs(network.getBoundingClientRect().top - document.querySelector('.ladders').getBoundingClientRect().top) < 3;
+    }, line);
+    await page.waitForTimeout(300);
+    assert.ok(await page.evaluate((line) => document.querySelector(`#network-${line}`).getBoundingClientRect().top < 300, line), 'and stays there');
+  }
+  await page.close();
+});
+
 test('texts of a program and its symbols are text, never markup', async () => {
   const program = path.join(kFolder, 'hostile.awl');
   const symbols = path.join(kFolder, 'symbols.txt');

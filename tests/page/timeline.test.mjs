@@ -139,7 +139,7 @@ test('what is between the cursors is measured: count, shortest, average, longest
   const cells = async (name) => page.locator(`.measured tr:has(th:text-is("${name}")) td`).allTextContents();
   const frames = await cells('port 0 frames'), characters = await cells('port 0 received'), scans = await cells('scans');
   assert.equal(frames[0], '5', 'three requests and two answers');
-  assert.deepEqual(characters.slice(0, 4), ['24', '1.09375 ms', '1.09375 ms', '1.09375 ms'], '10.5 bits from the start edge to the middle of the stop bit');
+  assert.deepEqual(characters.slice(0, 4), ['24', '1.14583 ms', '1.14583 ms', '1.14583 ms'], '11 bits');
   const [shortest, average, longest] = scans.slice(1, 4).map((text) => parseFloat(text) * (text.endsWith('µs') ? 1 : 1000));
   assert.ok(shortest < average && average < longest, scans.join());
   assert.ok(await page.locator('.measured .histogram').count() > 3);
@@ -155,6 +155,14 @@ test('the longest scan since power-up is gone to', async () => {
   await page.keyboard.press('Shift+C');
   await page.waitForSelector('.notice:has-text("The longest scan since power-up lasted 5")', { timeout: 60000 });
   assert.equal(await moment(page), 0, 'the first one makes a table');
+});
+
+test('a search is given up when one goes elsewhere', async () => {
+  await page.keyboard.press('End');
+  await page.keyboard.press('Shift+L');
+  await page.keyboard.press('Home');
+  await page.waitForTimeout(1000);
+  assert.equal(await moment(page), 0);
 });
 
 test('an address that is watched is a wave', async () => {

@@ -329,8 +329,9 @@ class StationTracks {
   void add_character(const TraceRecord& record, bool sent) {
     const SerialFormat format = simulation_.plc().port_format(record.port);
     const bool dropped = record.kind == TraceKind::CharacterIgnored || record.kind == TraceKind::CharacterDropped;
-    TrackSpan span{.at = sent ? record.at - format.character_time() : record.since,
-                   .end = record.at,
+    const Time at = sent ? record.at - format.character_time() : record.since;
+    TrackSpan span{.at = at,
+                   .end = at + format.character_time(),  // the PLC has it in the middle of the stop bit
                    .text = fmt::format("{:02x}", record.byte)};
     if (record.parity_error) span.error = "parity error";
     if (record.framing_error) span.error += span.error.empty() ? "framing error" : ", framing error";

@@ -1,7 +1,7 @@
 // Two futures: the one that has been is kept from a moment on, something is changed there, and what comes then stands above it,
 // with what differs marked.
 import { changed, notice, state } from './state';
-import { go_to, move } from './session';
+import { also_seen, go_to, move, Seen } from './session';
 import { first_after } from './timeline/scale';
 import { spans_between } from './timeline/view';
 import { moment_text, moment_word } from './words';
@@ -33,6 +33,7 @@ export async function compare_futures(): Promise<void> {
   await go_to(at_ns);
   if (!spans) return;
   state.first_future = { at_ns, until_ns, spans };
+  state.futures_part_ns = null;
   notice('This future is kept, below each track. Now switch an input, write a value or send a frame, and Run: what differs is marked.');
 }
 
@@ -55,20 +56,26 @@ function value_at(track: SpanTrack, ns: number): number | undefined {
   return one && one.at_ns <= ns ? one.value : undefined;
 }
 
-/** The elements of a track, those of a part of the time marked that the other one does not have. Where several are in one, that cannot be told. */
-function marked(track: SpanTrack, other: SpanTrack | undefined, from_ns: number, to_ns: number): Span[] {
-  if (other && !(track.exact && other.exact)) return track.spans;
+/** Whether an element of a track, within a part of the time, is one that the other track does not have. */
+function differs_from(other: SpanTrack | undefined, track: SpanTrack, from_ns: number, to_ns: number): (one: Span) => boolean {
   const known = new Set((other?.spans ?? []).map(key_of));
-  const differs = (one: Span): boolean => (track.kind === 'value' && other
+  return (one) => (track.kind === 'value' && other
     ? one.end_ns > from_ns && one.at_ns < to_ns && value_at(other, Math.max(one.at_ns, from_ns)) !== one.value
     : one.at_ns > from_ns && one.end_ns < to_ns && !known.has(key_of(one)));
+}
+
+/** The elements of a track, those marked that the other one does not have. Where several are in one, that cannot be told. */
+function marked(track: SpanTrack, other: SpanTrack | undefined, from_ns: number, to_ns: number): Span[] {
+  if (other && !(track.exact && other.exact)) return track.spans;
+  const differs = differs_from(other, track, from_ns, to_ns);
   return track.spans.map((one) => (differs(one) ? { ...one, differs: true } : one));
 }
+
+const same = (a: SpanTrack) => (b: SpanTrack): boolean => a.name === b.name && a.station === b.station;
 
 function both(spans: Spans, first: NonNullable<typeof state.first_future>): Spans {
   const newest = state.past?.newest_ns ?? 0, from = first.at_ns, to = Math.min(first.until_ns, newest, spans.to_ns);
   const names = new Set(spans.tracks.map((one) => `${one.station ?? ''} ${one.name}`));
-  const same = (a: SpanTrack) => (b: SpanTrack): boolean => a.name === b.name && a.station === b.station;
   const lower = (track: SpanTrack, upper: SpanTrack | undefined): SpanTrack => ({ ...track, before: true, spans: marked(track, upper, from, to) });
   const tracks = spans.tracks.flatMap((track) => {
     const kept = first.spans.tracks.find(same(track));
@@ -91,14 +98,33 @@ export function shown_spans(): Spans | null {
   return shown;
 }
 
-/** When both futures part, if that is in view. */
-export function first_difference(): number | null {
-  if (!state.first_future) return null;
-  const all = (shown_spans()?.tracks ?? []).flatMap((track) => track.spans.filter((one) => one.differs).map((one) => Math.max(one.at_ns, state.first_future!.at_ns)));
-  return all.length === 0 ? null : Math.min(...all);
+/** When the second future has something first that the one kept has not, or the other way round; null if nothing yet. */
+function parting_of(first: NonNullable<typeof state.first_future>, second: Spans): number | null {
+  const to = Math.min(first.until_ns, second.to_ns), is_whole = second.to_ns >= first.until_ns;
+  const begin = (one: SpanTrack, other: SpanTrack | undefined): number => {
+    if (one.kind === 'value' && !other) return Infinity;  // it was not watched then
+    if (!is_whole && other && !(one.exact && other.exact)) return Infinity;  // several are put together in another way
+    const found = one.spans.find(differs_from(other, one, first.at_ns, to));
+    return found ? Math.max(found.at_ns, first.at_ns) : Infinity;
+  };
+  const at = Math.min(...second.tracks.map((one) => begin(one, first.spans.tracks.find(same(one)))),
+    ...first.spans.tracks.map((one) => begin(one, second.tracks.find(same(one)))));
+  return at === Infinity ? null : at;
+}
+
+/** Of all that has been of both, whatever is in view. */
+const parting = new Seen(async () => {
+  const first = state.first_future;
+  if (!first || (state.past?.newest_ns ?? 0) <= first.at_ns) return;
+  const second = await spans_between(first.at_ns, first.until_ns, kElements, state.watched);
+  if (second) state.futures_part_ns = parting_of(first, second);
+});
+
+export function start_futures(): void {
+  also_seen(parting);
 }
 
 export function difference_text(): string {
-  const at = first_difference();
+  const at = state.futures_part_ns;
   return at === null ? 'both futures are the same so far' : `both futures part at ${moment_text(at)}`;
 }

@@ -15,6 +15,7 @@ import { load_chart } from './panes/chart';
 import { dialogs } from './panes/dialogs';
 import { menu } from './panes/menu';
 import { start_timeline } from './timeline/view';
+import { start_futures } from './futures';
 import { accept_drops, open_from_address } from './playground';
 import { open_report, opens_another_run } from './report';
 import { moment_of_link } from './words';
@@ -86,6 +87,7 @@ function start(): void {
   begin_theme();
   load_chart();
   start_timeline();
+  start_futures();
   on_change(show);
   addEventListener('beforeprint', () => print(true));
   addEventListener('afterprint', () => print(false));

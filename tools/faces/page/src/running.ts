@@ -2,7 +2,7 @@
 import type { Stopped } from './protocol';
 import { changed, state, the_engine } from './state';
 import { any_pulses, switch_due, time_to_edge_ns } from './pulses';
-import { command, print, say_why_stopped } from './session';
+import { command, print, say_why_stopped, take_over } from './session';
 
 const kPiece = 50;        // ms of the reader's time that a piece takes
 const kWithoutEnd = '24h';
@@ -55,6 +55,7 @@ async function run_without_end(): Promise<void> {
 
 export async function run(): Promise<void> {
   if (state.running) return;
+  take_over();
   state.own_run = true;
   state.running = true;
   state.notice = null;

@@ -299,8 +299,17 @@ export async function look_at(station: string): Promise<void> {
   if (reply.json) came_to(reply.json);
 }
 
+let tasks = 0;
+
+/** What takes long is given up when something else is wanted. Returns whether nothing has been since. */
+export function take_over(): () => boolean {
+  const mine = ++tasks;
+  return () => mine === tasks;
+}
+
 /** Carries out something that moves the session; what it says is shown where it stops. */
 export async function move<Json = unknown>(line: string): Promise<Reply<Json>> {
+  take_over();
   state.running = true;
   state.notice = null;
   changed();

@@ -89,6 +89,8 @@ export interface State {
   watched: string[];
   /** Of two futures the one that was kept. */
   first_future: { at_ns: number; until_ns: number; spans: Spans } | null;
+  /** When both futures part; null while they are the same. */
+  futures_part_ns: number | null;
   /** Moments that the reader has marked, in their order. */
   marks: number[];
   selected_span: Span | null;
@@ -151,6 +153,7 @@ export const state: State = {
   measurement: null,
   watched: [],
   first_future: null,
+  futures_part_ns: null,
   marks: [],
   selected_span: null,
   trail: [],

@@ -21,7 +21,7 @@ export function linked(line: string): Child[] {
     const text = mark[0];
     const ns = Math.round(Number(mark[1]) * 1e6);
     parts.push(mark[1] !== undefined
-      ? h('button', { class: 'link', title: 'Go to this moment', onclick: () => void go_to(ns) }, text)
+      ? h('button', { class: 'link', title: 'Go to this moment', onclick: () => void go_to(ns) }, moment_text(ns))
       : h('button', { class: 'link', title: `Why ${text}?`, onclick: () => void ask_why(text) }, text));
     end = mark.index! + text.length;
   }

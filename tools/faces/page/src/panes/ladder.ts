@@ -182,15 +182,25 @@ function follow(all: { place: Place; top: number }[]): void {
   if (found && (found.top < scroller.scrollTop || found.top > scroller.scrollTop + scroller.clientHeight - 60)) scroller.scrollTop = Math.max(0, found.top - 20);
 }
 
+/** The line whose network stays at the top until one scrolls: how high those above it are is known only when they are drawn. */
+let wanted_line: number | null = null, set_top = 0;
+
 /** Brings the network of that line into view, or the first one after it. */
 export function show_in_ladder(line: number): void {
-  if (!scroller) return;
-  let top = 0;
-  for (const place of places()) {
-    if (place.line >= line) break;
-    top += height_of(place);
-  }
-  scroller.scrollTop = top;
+  wanted_line = line;
+  changed();
+}
+
+function keep_in_view(all: { place: Place; top: number }[]): void {
+  const wanted = wanted_line === null ? undefined : all.find(({ place }) => place.line >= wanted_line!);
+  if (!scroller || !wanted) return;
+  scroller.scrollTop = wanted.top;
+  if (scroller.scrollTop !== set_top) requestAnimationFrame(changed);
+  set_top = scroller.scrollTop;
+}
+
+function scrolled(): void {
+  if (scroller?.scrollTop !== set_top) wanted_line = null;
   changed();
 }
 
@@ -228,8 +238,8 @@ export function ladder_view(): Part {
     in_view = shown.map((one) => one.place);
     seen.refresh();
   }
-  return h('div', { class: 'listing ladders', tabindex: '0', role: 'group', 'aria-label': 'Ladder: arrows choose a network, Tab reaches its addresses', onscroll: changed, onkeydown: on_key,
-    ref: (node: HTMLElement) => { const first = scroller !== node; scroller = node; if (first) requestAnimationFrame(changed); follow(all); } },
+  return h('div', { class: 'listing ladders', tabindex: '0', role: 'group', 'aria-label': 'Ladder: arrows choose a network, Tab reaches its addresses', onscroll: scrolled, onkeydown: on_key,
+    ref: (node: HTMLElement) => { const first = scroller !== node; scroller = node; if (first) requestAnimationFrame(changed); follow(all); keep_in_view(all); } },
   h('div', { class: 'rows', style: { height: `${top}px` } }, shown.map(({ place, top: y }) =>
     h('section', { id: `network-${place.line}`, 'aria-label': place.name, class: `ladder-network${place.line === chosen ? ' chosen' : ''}${state.past?.op !== null && state.past && state.past.op! >= place.first && state.past.op! < place.end ? ' here' : ''}`, key: place.line, ref: measure(place), style: { top: `${y}px` } },
       h('h3', {}, place.name), (state.ladder.get(place.line) ?? []).map((one) => network_part(one, place.line === chosen)),

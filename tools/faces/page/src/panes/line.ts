@@ -38,13 +38,20 @@ function latencies_of(all: Exchange[]): number[] {
   return all.flatMap((one) => (one.latency_ns === undefined ? [] : [one.latency_ns]));
 }
 
+/** Which part of the past is listed, unless it is all of it. */
+function part_text(): string {
+  const listed = state.exchanges, past = state.past;
+  if (!listed || !past || (listed.from_ns <= past.oldest_ns && listed.to_ns >= past.newest_ns)) return '';
+  return ` from ${duration_text(listed.from_ns)} to ${duration_text(listed.to_ns)}`;
+}
+
 function summary(all: Exchange[]): string {
   const latencies = latencies_of(all);
   if (all.length === 0) return '';
   const unanswered = all.filter(is_unanswered).length;
   const ends = [...new Set([Math.min(...latencies), Math.max(...latencies)])].map(duration_text).join(' … ');
   const spread = latencies.length === 0 ? '' : `, latency ${ends}`;
-  return `${all.length} ${all.length === 1 ? 'request' : 'requests'}, ${unanswered} without an answer${spread}`;
+  return `${all.length} ${all.length === 1 ? 'request' : 'requests'}${part_text()}, ${unanswered} without an answer${spread}`;
 }
 
 export function line_pane(): Part {

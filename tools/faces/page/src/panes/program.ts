@@ -188,7 +188,7 @@ const block_choice = kept((outline: Outline | null): Part =>
     field.value = '';
   } }, h('option', { value: '' }, 'Block, network …'),
   (outline?.routines ?? []).map((routine) => h('optgroup', { label: routine.name }, [
-    h('option', { value: String(routine.line) }, routine.name),
+    h('option', { value: String(Math.min(routine.line, routine.networks[0]?.line ?? routine.line)) }, routine.name),
     ...routine.networks.filter((one) => one.number !== null).map((one) =>
       h('option', { value: String(one.line) }, `Network ${one.number}${one.title ? `  ${one.title}` : ''}`))]))));
 

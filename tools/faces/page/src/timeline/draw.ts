@@ -85,6 +85,12 @@ function label(c: CanvasRenderingContext2D, text: string, x: number, y: number, 
   c.fillText(text.length > letters ? (letters > 3 ? text.slice(0, letters - 1) + '…' : text.slice(0, letters)) : text, x + 3, y);
 }
 
+/** Where nothing is missing between several and the next ones, they go on to these. */
+function end_of(one: Span, next: Span | undefined): number {
+  const usual = 2 * (one.end_ns - one.at_ns) / Math.max(1, (one.count ?? 1) - 1);
+  return (one.count ?? 1) > 1 && next && next.at_ns - one.end_ns < usual ? next.at_ns : one.end_ns;
+}
+
 function draw_spans(c: CanvasRenderingContext2D, view: View, row: Row, theme: Theme): void {
   const { scale } = view, { track, top, height } = row;
   const columns = new Float64Array(Math.ceil(view.width) + 1);
@@ -94,7 +100,7 @@ function draw_spans(c: CanvasRenderingContext2D, view: View, row: Row, theme: Th
   for (let i = first_after(track.spans, scale.from_ns); i < track.spans.length; ++i) {
     const one = track.spans[i]!;
     if (one.at_ns >= scale.to_ns) break;
-    const x = Math.max(scale.left, x_of(scale, one.at_ns)), end = Math.min(scale.right, x_of(scale, one.end_ns));
+    const x = Math.max(scale.left, x_of(scale, one.at_ns)), end = Math.min(scale.right, x_of(scale, end_of(one, track.spans[i + 1])));
     const width = end - x, several = (one.count ?? 1) > 1;
     const wrong = one.error !== undefined || (one.errors ?? 0) > 0;
     if (wrong) trouble.push([x, Math.max(2, several ? 2 : width)]);

@@ -1,19 +1,20 @@
 // Searches through the past: the nearest trouble, the next request without an answer, the longest answer, the longest scan.
 import { exchanges_of, is_unanswered, type Exchange } from '../exchanges';
 import { ask_why_latency } from '../causes';
-import { command, move } from '../session';
+import { command, move, take_over } from '../session';
 import { notice, state } from '../state';
 import { duration_text, moment_word } from '../words';
-import { show_found, spans_between } from './view';
-import type { Answers, Span, Stopped, Stops, Value } from '../protocol';
+import { bring_into_view, show_found, spans_between } from './view';
+import type { Answers, Span, Stopped, Stops } from '../protocol';
 
 function has_trouble(span: Span): boolean {
   return span.error !== undefined || (span.errors ?? 0) > 0;
 }
 
-/** The nearest element with trouble; where several are one, it looks into them. */
-async function find(from_ns: number, to_ns: number, direction: 1 | -1): Promise<Span | null> {
+/** The nearest element with trouble; where several are one, it looks into them. Nothing if something else is wanted meanwhile. */
+async function find(from_ns: number, to_ns: number, direction: 1 | -1, is_wanted: () => boolean): Promise<Span | null> {
   const spans = await spans_between(from_ns, to_ns);
+  if (!is_wanted()) return null;
   const found = (spans?.tracks ?? []).flatMap((track) => track.spans.filter(has_trouble))
     .filter((span) => span.at_ns >= from_ns && span.at_ns < to_ns || (span.count ?? 1) > 1)
     .sort((a, b) => direction * (a.at_ns - b.at_ns));
@@ -21,7 +22,7 @@ async function find(from_ns: number, to_ns: number, direction: 1 | -1): Promise<
     if ((one.count ?? 1) <= 1) return one;
     const first = Math.max(from_ns, one.at_ns), last = Math.min(to_ns, one.end_ns + 1);
     if (last - first >= to_ns - from_ns) continue;
-    const inside = await find(first, last, direction);
+    const inside = await find(first, last, direction, is_wanted);
     if (inside) return inside;
   }
   return null;
@@ -31,13 +32,16 @@ export async function find_error(direction: 1 | -1): Promise<void> {
   const past = state.past;
   if (!past) return;
   const [from, to] = direction > 0 ? [past.now_ns + 1, past.newest_ns + 1] : [past.oldest_ns, past.now_ns];
-  const found = to > from ? await find(from, to, direction) : null;
+  const is_wanted = take_over();
+  const found = to > from ? await find(from, to, direction, is_wanted) : null;
+  if (!is_wanted()) return;
   if (!found) {
     notice(direction > 0 ? 'No lost character or error after this moment' : 'No lost character or error before this moment');
     return;
   }
   state.selected_span = found;
   await show_found(found);
+  notice(found.error ?? found.text);
 }
 
 const kFirstPart = 2e9, kLongestPart = 600e9;  // ns that are looked through at once
@@ -63,7 +67,9 @@ async function* exchanges_after(from: number): AsyncGenerator<Exchange[]> {
 }
 
 export async function find_unanswered(): Promise<void> {
+  const is_wanted = take_over();
   for await (const part of exchanges_after((state.past?.now_ns ?? 0) + 1)) {
+    if (!is_wanted()) return;
     const found = part.find(is_unanswered);
     if (found) return show_found(found);
   }
@@ -80,47 +86,48 @@ async function answers_of_past(): Promise<Answers | undefined> {
 
 export async function find_longest(): Promise<void> {
   notice('Looking for the longest answer …');
-  const answers = await answers_of_past(), longest = answers?.longest[0];
+  const is_wanted = take_over(), answers = await answers_of_past(), longest = answers?.longest[0];
+  if (!is_wanted()) return;
   if (!answers || !longest) {
     notice('There is no answer yet');
     return;
   }
-  await show_found({ at_ns: longest.at_ns, end_ns: longest.answer_end_ns });
   await ask_why_latency(longest.text, longest.answer_end_ns, longest.station);
+  bring_into_view({ at_ns: longest.at_ns, end_ns: longest.answer_end_ns });
   notice(`The longest of ${answers.count} answers: after ${duration_text(longest.answer_ns - longest.end_ns)}, to ${longest.text}`);
 }
 
-/** The longest scan since power-up, in ms, as the CPU knows it at a moment. */
-async function longest_scan_at(ns: number): Promise<number> {
-  const reply = await command<{ values: Value[] }>(`at ${moment_word(ns)}; values SMW26`);
-  return Number(reply.json?.values[0]?.number ?? 0);
+const kLongestScan = 'SMW26';  // ms since power-up
+
+/** The change at which a value came to what it is most; where several are one, it looks into them. */
+async function change_to_most(address: string, from_ns: number, to_ns: number, is_wanted: () => boolean): Promise<Span | null> {
+  const spans = await spans_between(from_ns, to_ns, undefined, [address]);
+  const all = spans?.tracks.find((one) => one.kind === 'value')?.spans ?? [];
+  const most_of = (one: Span): number => one.most ?? one.value ?? 0;
+  const most = Math.max(...all.map(most_of)), first = all.find((one) => most_of(one) === most);
+  if (!first || !is_wanted()) return null;
+  const is_one = (first.count ?? 1) <= 1 || first.end_ns - first.at_ns >= to_ns - from_ns;
+  return is_one ? first : change_to_most(address, first.at_ns, first.end_ns, is_wanted);
 }
 
-/** The CPU counts it only up: the moment at which it came to what it is in the end is found by halves. */
 export async function find_longest_scan(): Promise<void> {
   const past = state.past;
-  if (!past) return;
+  if (!past || past.newest_ns === 0) return;
   notice('Looking for the longest scan …');
-  const ms = await longest_scan_at(past.newest_ns);
-  if (ms === 0) {
+  const is_wanted = take_over();
+  const change = await change_to_most(kLongestScan, past.oldest_ns, past.newest_ns, is_wanted);
+  if (!is_wanted()) return;
+  const ms = change?.value ?? 0;
+  if (!change || ms === 0) {
     notice('No scan has lasted 1 ms yet');
     return;
   }
-  let before = past.oldest_ns, since = past.newest_ns;
-  while (since - before > 1e6) {
-    const middle = Math.floor((before + since) / 2);
-    if (await longest_scan_at(middle) >= ms) since = middle;
-    else before = middle;
-  }
-  const now = (): number => state.past?.now_ns ?? 0;
-  await move(`at ${moment_word(since)}`);
-  let end_ns = since;
-  while (now() > Math.max(past.oldest_ns, since - ms * 1e6 / 2)) {
-    end_ns = now();
-    await move('rscan');
-  }
-  await show_found({ at_ns: now(), end_ns });
-  notice(`The longest scan since power-up lasted ${ms} ms (SMW26): scan ${state.past?.scan ?? ''}; others may have lasted as many`);
+  const spans = await spans_between(Math.max(past.oldest_ns, change.at_ns - (ms + 1) * 1e6), Math.min(past.newest_ns, change.at_ns + 1));
+  if (!is_wanted()) return;
+  const scans = spans?.tracks.filter((one) => one.kind === 'scans' && (one.station ?? '') === past.station).flatMap((one) => one.spans) ?? [];
+  const scan = scans.sort((a, b) => b.end_ns - b.at_ns - (a.end_ns - a.at_ns))[0] ?? change;
+  await show_found(scan);
+  notice(`The longest scan since power-up lasted ${ms} ms (${kLongestScan}): ${scan.text}; others may have lasted as many`);
 }
 
 const kLongestRun = 10e9;  // ns that are run for a condition when there is no past after this moment

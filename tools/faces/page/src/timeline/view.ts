@@ -38,6 +38,7 @@ const seen: Seen = new Seen(async () => {
     state.spans = state.picture;
     return;
   }
+  if (state.picture && !covers(state.spans, from_ns, to_ns)) state.spans = state.picture;
   const late = setTimeout(() => { state.computing = true; changed(); }, kLate), while_running = state.running;
   const spans = await spans_between(first, last, kElements, state.watched);
   clearTimeout(late);
@@ -45,6 +46,10 @@ const seen: Seen = new Seen(async () => {
   if (spans) state.spans = spans;
   if (spans?.interrupted && while_running) seen.refresh();  // it was the run that was stopped
 });
+
+function covers(spans: Spans | null, from_ns: number, to_ns: number): boolean {
+  return spans !== null && spans.from_ns <= Math.max(0, from_ns) && spans.to_ns >= Math.min(to_ns, state.past?.newest_ns ?? 0);
+}
 
 /** Whether all of the run of a report is seen, of which there is a picture. */
 function is_in_picture(from_ns: number, to_ns: number): boolean {
@@ -148,10 +153,15 @@ export function unwatch(address: string): void {
 
 const kWidest = 10e9, kLeastFound = 20e6;  // ns
 
-/** Goes to what was found; it comes into view, and of a window in which it would be less than a pixel near enough to be seen. */
+/** Goes to what was found. */
 export async function show_found(found: { at_ns: number; end_ns: number }): Promise<void> {
   goes_along = true;
   await go_to(found.at_ns);
+  bring_into_view(found);
+}
+
+/** It comes into view; of a window in which it would be less than a pixel, near enough to be seen. */
+export function bring_into_view(found: { at_ns: number; end_ns: number }): void {
   const { from_ns, to_ns } = window_of(), length = Math.max(found.end_ns - found.at_ns, kLeastFound);
   if (to_ns - from_ns > kWidest && length < kWidest) show(found.at_ns - length, found.end_ns + length);
   else if (found.at_ns < from_ns || found.end_ns > to_ns) move_to(found.at_ns - (to_ns - from_ns) / 2);
