@@ -996,6 +996,20 @@ TEST(Recordings, AfterALostSegmentReadingGoesOnWhereMessagesBegin) {
                 "packet 2: protocol 22136 instead of 0; reading goes on with the next message that begins a segment"});
 }
 
+TEST(Recordings, AfterALostSegmentAHeadMayBeDividedBetweenSegments) {
+  const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
+  for (std::uint32_t cut = 1; cut < 6; ++cut) {
+    std::vector<Bytes> packets{segment(true, 100, request)};
+    std::uint32_t sequence = 100;
+    for (int message = 1; message < 4; ++message) {
+      sequence += static_cast<std::uint32_t>(request.size());
+      if (message > 1) packets.push_back(segment(true, sequence, {request.begin(), request.begin() + cut}));
+      packets.push_back(segment(true, sequence + cut, {request.begin() + cut, request.end()}));
+    }
+    EXPECT_EQ(recording_of(ethernet_pcap(packets)).frames.size(), 3U) << cut << ": all but the second";
+  }
+}
+
 TEST(Recordings, WhatIsNoRecordingIsRefused) {
   EXPECT_EQ(refusal_of(""), "the file is empty");
   EXPECT_EQ(refusal_of(" \r\n\n"), "the file is empty");

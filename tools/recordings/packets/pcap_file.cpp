@@ -101,6 +101,7 @@ struct Stream {
   modbus::MbapReader reader{};
   std::uint32_t connection = 0;
   bool out_of_step = false;  ///< where the next message begins is not known
+  Bytes held{};              ///< then: what may be the first bytes of one whose head is not all there
 };
 
 /// The place of the first message of a segment after something was lost: the messages' heads lead from one to the next, up
@@ -120,6 +121,14 @@ std::optional<std::size_t> first_message_in(Data data) {
     if (end == data.size()) return begin;
   }
   return {};
+}
+
+/// Whether bytes may be the first of a message, and are not its whole head.
+bool may_begin_head(Data data) {
+  constexpr std::size_t kHead = 6, kProtocol = 2, kLength = 4;
+  bool is_modbus = true;
+  for (std::size_t at = kProtocol; at < std::min(kLength, data.size()); ++at) is_modbus &= data[at] == 0;
+  return data.size() < kHead && is_modbus;
 }
 
 /// Whether a segment is a frame of Modbus RTU, as servers of serial ports send it, and no message of Modbus TCP.
@@ -195,6 +204,7 @@ class PacketFrames {
       stream.next = segment.sequence + 1;
       stream.reader = {};
       stream.out_of_step = false;
+      stream.held.clear();
       return;
     }
     if (segment.data.empty()) return;
@@ -214,10 +224,17 @@ class PacketFrames {
                                           .bytes = Bytes(data.begin(), data.end()),
                                           .place = place});
     }
+    Bytes whole;
     if (stream.out_of_step) {
-      const auto begin = first_message_in(data);
-      if (!begin) return;
-      data = data.subspan(*begin);
+      whole = std::exchange(stream.held, {});
+      whole.insert(whole.end(), data.begin(), data.end());
+      const auto begin = first_message_in(whole);
+      if (!begin) {
+        for (const Data first : {Data(whole), data})
+          if (stream.held.empty() && may_begin_head(first)) stream.held.assign(first.begin(), first.end());
+        return;
+      }
+      data = Data(whole).subspan(*begin);
       stream.reader = {};
       stream.out_of_step = false;
     }
