@@ -1,6 +1,9 @@
-// What DSView's decoder list exports: `Id,Time[ns],0:UART: RX/TX`, a character in each row. The column's name says whose it
-// is: `0:UART: RX`.
+// What DSView's decoder list exports: `Id,Time[ns],0:UART: RX/TX`, also `Id,Start[ns],End[ns],…`, a character in each row.
+// The column's name says whose it is: `0:UART: RX`.
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 
 #include "interpreter/base/result.hpp"
 #include "interpreter/base/text/numbers.hpp"
@@ -14,8 +17,15 @@
 namespace s7200::tools {
 namespace {
 
-constexpr std::string_view kHead = "Id,Time[ns],";
-constexpr std::size_t kTime = 1, kFirstData = 2;
+constexpr std::array<std::string_view, 2> kHeads{"Id,Time[ns],", "Id,Start[ns],End[ns],"};
+constexpr std::size_t kTime = 1;
+
+/// The first column with characters; 0: it is no table of DSView.
+std::size_t first_data(std::string_view bytes) {
+  for (const std::string_view head : kHeads)
+    if (bytes.starts_with(head)) return static_cast<std::size_t>(std::ranges::count(head, ','));
+  return 0;
+}
 
 /// A remark of the decoder in place of a character.
 enum class Remark : std::uint8_t { None, Damage, Bit };
@@ -28,17 +38,18 @@ Remark remark_of(std::string_view cell) {
 
 }  // namespace
 
-bool looks_like_dsview(std::string_view bytes) { return bytes.starts_with(kHead); }
+bool looks_like_dsview(std::string_view bytes) { return first_data(bytes) > 0; }
 
 Result<LineRecording> read_dsview(std::string_view bytes, const ReadingChoices& choices) {
   TableRows rows(bytes, choices.stop);
   const auto names = fields_of(rows.next()->text, ',');
+  const std::size_t first = first_data(bytes);
   NotationFinder finder;
   const auto for_each_cell = [&](auto tell) {
     TableRows below = rows;
     while (const auto row = below.next()) {
       const auto fields = fields_of(row->text, ',');
-      for (std::size_t column = kFirstData; column < fields.size() && column < names.size(); ++column)
+      for (std::size_t column = first; column < fields.size() && column < names.size(); ++column)
         if (const std::string_view cell = stl::trim(fields[column]); !cell.empty()) tell(*row, fields, column, cell);
     }
   };

@@ -1,6 +1,6 @@
 // What `sigrok-cli -A uart` prints: `uart-1: 01`, with --protocol-decoder-samplenum `1104-1938 uart-1: 01`, in any of the
-// decoder's formats. Without classes, `uart-1: rx-data: 01`, it does not say whether a character was RX or TX; it counts
-// samples, not time.
+// decoder's formats; and what PulseView exports: `1104-1938 UART: RX data: 01`. Without classes, `uart-1: rx-data: 01`, it
+// does not say whether a character was RX or TX; it counts samples, not time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,10 +31,11 @@ struct Annotation {
 
 constexpr std::size_t kMostDigits = 18;
 
-/// The head of an annotation: `1104-1938 uart-1: `
+/// The head of an annotation: `1104-1938 uart-1: `, `1104-1938 UART: ` of PulseView
 struct AnnotationHead {
   std::string_view first{}, decoder{};
   std::size_t length = 0;
+  bool of_pulseview = false;
 };
 std::optional<AnnotationHead> annotation_head(std::string_view line) {
   Scan scan(line);
@@ -43,10 +44,15 @@ std::optional<AnnotationHead> annotation_head(std::string_view line) {
       !head.first.empty() && scan.take("-") != '\0' && !scan.take_digits(kMostDigits).empty() && scan.take(" ") != '\0';
   if (!head.first.empty() && !has_samples) return {};
   head.decoder = scan.take_while(is_word_sign);
-  if (head.decoder.empty() || scan.take("-") == '\0' || scan.take_digits(kMostDigits).empty() || !scan.take_word(": "))
-    return {};
+  head.of_pulseview = has_samples && scan.next() == ':';
+  const bool has_number = !head.of_pulseview && scan.take("-") != '\0' && !scan.take_digits(kMostDigits).empty();
+  if (head.decoder.empty() || (!head.of_pulseview && !has_number) || !scan.take_word(": ")) return {};
   head.length = scan.at();
   return head;
+}
+
+bool is_of_characters(const AnnotationHead& head) {
+  return head.decoder == "uart" || (head.of_pulseview && stl::upper_case(head.decoder) == "UART");
 }
 
 /// Takes the class off the text: `rx-data: 01`, `tx-start: Start bit`.
@@ -60,14 +66,27 @@ void take_class(Annotation& annotation) {
   annotation.text.remove_prefix(scan.at());
 }
 
+/// Takes PulseView's class or row off the text: `RX data: 01`, `RX: 01`, `RX start bits: Start bit`, `TX warnings: Frame
+/// error`. Without it, `01`, the text has none.
+void take_class_of_pulseview(Annotation& annotation) {
+  const std::size_t end = annotation.text.find(": ");
+  if (end == std::string_view::npos) return;
+  const std::string_view name = annotation.text.substr(0, end), kind = stl::trim(name.substr(std::min<std::size_t>(2, end)));
+  annotation.direction = direction_of(name.substr(0, 2));
+  const bool has_direction = annotation.direction != Direction::Unknown;
+  annotation.is_of_bits =
+      !(has_direction && kind.empty()) && !name.ends_with("data") && !name.ends_with("warnings") && !name.ends_with("break");
+  annotation.text.remove_prefix(end + 2);
+}
+
 /// The annotation in a line; nothing if it is not one of the decoder `uart`.
 std::optional<Annotation> annotation_of(std::string_view line) {
   const auto head = annotation_head(line);
-  if (!head || head->decoder != "uart") return {};
+  if (!head || !is_of_characters(*head)) return {};
   const std::string_view written = line.substr(head->length);
   Annotation annotation{.text = written == " " ? written : stl::trim(written)};  // a blank may be a character
   if (!head->first.empty()) annotation.begin = decimal_number(head->first);
-  take_class(annotation);
+  head->of_pulseview ? take_class_of_pulseview(annotation) : take_class(annotation);
   if (annotation.text.size() > 2 && annotation.text.starts_with('"') && annotation.text.ends_with('"'))
     annotation.text = annotation.text.substr(1, annotation.text.size() - 2);  // sigrok-cli -l 3
   return annotation;
@@ -159,7 +178,7 @@ std::string_view other_decoder(std::string_view bytes) {
   std::string_view other;
   for (const std::string_view line : Lines(beginning_of(bytes))) {
     const auto head = annotation_head(line);
-    if (head && head->decoder == "uart") return "";
+    if (head && is_of_characters(*head)) return "";
     const bool is_known = head && (!head->first.empty() || std::ranges::find(kDecoders, head->decoder) != kDecoders.end());
     if (is_known && other.empty()) other = head->decoder;
   }
@@ -197,6 +216,9 @@ Result<LineRecording> read_sigrok_annotations(std::string_view bytes, const Read
   }
   const auto notation = finder.found();
   if (!notation) return notation.trouble();
+  const auto begin_of = [](const Character& character) { return character.annotation.begin; };
+  if (std::ranges::all_of(characters, [&](const Character& each) { return begin_of(each).has_value(); }))
+    std::ranges::stable_sort(characters, {}, begin_of);  // PulseView writes row after row
   Frames frames(choices);
   frames.measure(characters);
   for (const Character& character : characters) frames.add(character, *notation->read(character.annotation.text));

@@ -3,6 +3,8 @@
 //
 //   [10:00:00.000][V][modbus:199]: Modbus write: 01.03.00.0A.00.02.E4.09 (8)
 //   [10:00:00.025][VV][modbus:042]: Modbus received Byte  18 (0X12)
+//
+// Later ones log what they receive as a frame: `Modbus received frame: 01.03.04.…(9)`
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +18,8 @@
 namespace s7200::tools {
 namespace {
 
-constexpr std::string_view kModbusTag = "[modbus:", kWrite = "rite: ", kByteReceived = "eceived Byte ";
+constexpr std::string_view kModbusTag = "[modbus:", kWrite = "rite: ", kFrameReceived = "eceived frame: ",
+                           kByteReceived = "eceived Byte ";
 
 /// Silence that ends what it receives: it waits so long for the next byte.
 constexpr Time kReceivingEnds = 50 * kMillisecond;
@@ -32,7 +35,7 @@ std::optional<std::string_view> said_after(std::string_view line, std::string_vi
 
 /// Written bytes with signs between them, and their number: `01.03.00.0A (4)`
 std::optional<Bytes> written_bytes(std::string_view text) {
-  std::string plain(text.substr(0, text.find(" (")));
+  std::string plain(text.substr(0, text.find('(')));
   std::ranges::replace_if(
       plain, [](char c) { return c == '.' || c == ':'; }, ' ');
   return bytes_of_text(plain);
@@ -50,8 +53,8 @@ std::optional<Bytes> received_byte(std::string_view text) {
 
 bool looks_like_esphome_modbus(std::string_view bytes) {
   return is_text(bytes) && std::ranges::any_of(Lines(beginning_of(bytes)), [](std::string_view line) {
-           const auto written = said_after(line, kWrite);
-           return written && written_bytes(*written);
+           const auto written = said_after(line, kWrite), received = said_after(line, kFrameReceived);
+           return (written && written_bytes(*written)) || (received && written_bytes(*received));
          });
 }
 
@@ -64,12 +67,14 @@ Result<LineRecording> read_esphome_modbus(std::string_view bytes, const ReadingC
   for (const std::string_view line : Lines(bytes, choices.stop)) {
     ++number;
     const auto written = said_after(line, kWrite);
-    const auto received = written ? std::nullopt : said_after(line, kByteReceived);
-    if (!written && !received) {
+    const auto whole = said_after(line, kFrameReceived);
+    const auto received = written || whole ? std::nullopt : said_after(line, kByteReceived);
+    if (!written && !whole && !received) {
       if (!stl::trim(line).empty()) left_out.without_bytes(number);
       continue;
     }
-    auto frame = written ? written_bytes(*written) : received_byte(*received);
+    const std::string_view said = written ? *written : whole ? *whole : *received;
+    auto frame = received ? received_byte(said) : written_bytes(said);
     const std::size_t head = line.find('[');
     const auto time = head == std::string_view::npos ? std::nullopt : leading_time(line.substr(head));
     const auto at = time ? std::optional(days.since_first_midnight(*time)) : std::nullopt;
@@ -77,7 +82,7 @@ Result<LineRecording> read_esphome_modbus(std::string_view bytes, const ReadingC
     const bool goes_on = received && !recording.frames.empty() && recording.frames.back().direction == direction &&
                          (!at || !last || *at - *last <= kReceivingEnds);
     last = at;
-    const auto lost = [&] { return row_not_read(number, not_understood(written ? *written : *received), at, direction); };
+    const auto lost = [&] { return row_not_read(number, not_understood(said), at, direction); };
     if (goes_on && !frame)
       recording.frames.back() = lost();
     else if (goes_on && !recording.frames.back().doubt)

@@ -1,5 +1,5 @@
-// What Wireshark saves of a TCP stream that it follows: as a hex dump, as arrays of C, or as YAML. Peer 0 opened the
-// connection, and asks.
+// What Wireshark saves of a TCP stream that it follows: as a hex dump, which tshark -z follow,tcp,hex prints as well, as
+// arrays of C, or as YAML. Peer 0 opened the connection, and asks.
 //
 //   00000000  00 01 00 00 00 06 01 03  00 0a 00 02               ........ ....
 //       00000000  00 01 00 00 00 07 01 03  04 12 34 56 78        ........ ..4Vx
@@ -39,11 +39,17 @@ struct FollowedRow {
 std::optional<FollowedRow> followed_row(std::string_view line) {
   constexpr std::size_t kIndent = 4, kOffset = 8;
   Scan scan(line);
-  const std::size_t indent = scan.skip(" ");
+  const std::size_t indent = scan.take("\t") != '\0' ? kIndent : scan.skip(" ");  // a tab is tshark's
   const std::string_view offset = scan.take_hex(kOffset);
   if ((indent != 0 && indent != kIndent) || offset.size() != kOffset || scan.skip(" ") != 2) return {};
   FollowedRow row{.second = indent != 0, .offset = hex_number(offset), .bytes = take_row(scan)};
   return row.bytes.empty() ? std::nullopt : std::optional(std::move(row));
+}
+
+/// Whether a line is of the frame that tshark draws around a stream: `=====`, `Follow: tcp,hex`, `Node 0: 10.0.0.1:40000`
+bool is_around_stream(std::string_view line) {
+  return std::ranges::any_of(std::array<std::string_view, 4>{"====", "Follow: ", "Filter: ", "Node "},
+                             [line](std::string_view begin) { return line.starts_with(begin); });
 }
 
 /// Whether the first lines are rows of two peers, each at the end of what its peer has sent so far.
@@ -52,7 +58,7 @@ bool is_followed_dump(std::string_view text) {
   std::size_t rows = 0;
   std::array<std::size_t, 2> sent{};
   for (const std::string_view line : Lines(text)) {
-    if (stl::trim(line).empty()) continue;
+    if (stl::trim(line).empty() || is_around_stream(line)) continue;
     const auto row = followed_row(line);
     if (!row || row->offset != sent[row->second]) return false;
     sent[row->second] += row->bytes.size();

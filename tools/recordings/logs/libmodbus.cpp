@@ -35,7 +35,10 @@ bool begins_frame(std::string_view line) {
          bytes_of_text(text.substr(0, 4));
 }
 
-bool is_of_mbpoll(std::string_view line) { return line.starts_with("mbpoll ") || line.starts_with("-- Polling slave "); }
+/// mbpoll prints as modpoll does, which was there before it.
+bool is_of_mbpoll(std::string_view line) {
+  return line.starts_with("mbpoll ") || line.starts_with("modpoll ") || line.starts_with("-- Polling slave");
+}
 
 }  // namespace
 

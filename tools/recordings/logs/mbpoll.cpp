@@ -66,7 +66,8 @@ std::optional<PrintedValue> value_in(std::string_view line) {
   return PrintedValue{*reference, static_cast<std::uint16_t>(*value)};
 }
 
-constexpr std::string_view kStart = "start reference = ";
+/// modpoll says the station in the line with the references, and not where it begins to poll.
+constexpr std::string_view kStart = "start reference = ", kStation = "address = ", kPolls = "-- Polling slave";
 
 class MbpollReader {
  public:
@@ -81,8 +82,9 @@ class MbpollReader {
       first_ = *first;
       base_ = from_zero_ || first_ == 0 ? 0 : 1;
       count_ = number_after(line, "count = ").value_or(1);
-    } else if (const auto station = number_after(line, "-- Polling slave ")) {
-      ask(static_cast<std::uint8_t>(*station), number);
+      station_ = static_cast<std::uint8_t>(number_after(line, kStation).value_or(station_));
+    } else if (line.starts_with(kPolls)) {
+      ask(static_cast<std::uint8_t>(number_after(line, fmt::format("{} ", kPolls)).value_or(station_)), number);
     } else if (const auto value = value_in(line)) {
       take_value(*value);
     } else if (const std::size_t failed = line.find(kFailed); asked_ && failed != std::string_view::npos) {
