@@ -492,8 +492,10 @@ std::vector<std::string> ConversationNotes::list() const {
 
 const RecordedProtocol* likelier_protocol(const LineRecording& recording, const RecordedProtocol& chosen,
                                           const RightFrames& in_chosen, const Stamps& stamps) {
-  constexpr std::size_t kHardlyAny = 10, kHalf = 50;
+  constexpr std::size_t kHardlyAny = 10, kHalf = 50, kLongest = 4096;  // longer than a frame of any of them
   if (in_chosen.percent() > kHardlyAny) return nullptr;
+  if (std::ranges::any_of(recording.frames, [](const RecordedFrame& frame) { return frame.bytes.size() > kLongest; }))
+    return nullptr;
   const auto reader = chosen.reader(chosen.chosen);
   const auto of_chosen =
       std::ranges::count_if(recording.frames, [&](const RecordedFrame& frame) { return reader->has_form(frame.bytes); });

@@ -15,6 +15,7 @@
 #include "tools/recordings/logs/two_loggers.hpp"
 #include "tools/recordings/rows/lines.hpp"
 #include "tools/recordings/rows/markup.hpp"
+#include "tools/recordings/stated.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -29,16 +30,18 @@ constexpr std::array kForms{
     RecordingForm{"VCD", "VCD with the levels of a line, as --capture and logic analysers write it", false, looks_like_vcd,
                   read_vcd},
     RecordingForm{".sr", "sessions of sigrok and PulseView with its levels", false, looks_like_sigrok_session,
-                  read_sigrok_session},
+                  read_sigrok_session, true},
     RecordingForm{"bits", "the samples that sigrok-cli prints by itself, and with -O bits", false, looks_like_sigrok_bits,
-                  read_sigrok_bits},
+                  read_sigrok_bits, true},
     RecordingForm{"levels", "CSV of levels: sigrok-cli -O csv, PulseView, DSView, raw data of Saleae Logic", false,
-                  looks_like_levels_table, read_levels_table},
+                  looks_like_levels_table, read_levels_table, true},
     RecordingForm{"volts", "CSV of an oscilloscope: times and the volts of each channel, four samples or more in each bit",
                   false, looks_like_volts_table, read_volts_table},
     RecordingForm{"DSView", "the decoder list that DSView exports", true, looks_like_dsview, read_dsview},
-    RecordingForm{"sigrok", "what sigrok-cli -A uart prints; with --protocol-decoder-samplenum it says where frames end",
-                  true, looks_like_sigrok_annotations, read_sigrok_annotations},
+    RecordingForm{"sigrok",
+                  "what sigrok-cli -A uart prints, with --protocol-decoder-samplenum it says where frames end, and the "
+                  "annotations that PulseView exports",
+                  true, looks_like_sigrok_annotations, read_sigrok_annotations, true},
     RecordingForm{"tcpdump", "what tcpdump -x or -X prints of Modbus TCP", false, looks_like_tcpdump, read_tcpdump},
     RecordingForm{"tshark", "what tshark -x, or -P -x with times, prints of Modbus TCP", false, looks_like_tshark,
                   read_tshark},
@@ -59,15 +62,15 @@ constexpr std::array kForms{
                   true, looks_like_json_lines, read_json_lines},
     RecordingForm{"key=value", "key=value pairs in each line: time=… dir=tx data=…", true, looks_like_key_values,
                   read_key_values},
-    RecordingForm{"CSV",
-                  "CSV with a frame or a character in each row, as Saleae Logic 1 and 2 export it in any of their notations",
-                  true, looks_like_csv, read_csv},
     RecordingForm{"mbpoll", "what mbpoll and other programs with libmodbus print; without -v mbpoll has values only", true,
                   looks_like_libmodbus, read_libmodbus},
     RecordingForm{"pymodbus", "what pymodbus logs at the level DEBUG", true, looks_like_pymodbus, read_pymodbus},
     RecordingForm{"pyserial", "what pyserial prints of a port spy://", true, looks_like_pyserial, read_pyserial},
-    RecordingForm{"Python", "logs with bytes as Python shows them: b'\\x01\\x03', as of Home Assistant", true,
+    RecordingForm{"Python", "logs with bytes as Python shows them: b'\\x01\\x03', '\\x01\\x03', as of Home Assistant", true,
                   looks_like_python_bytes, read_python_bytes},
+    RecordingForm{"CSV",
+                  "CSV with a frame or a character in each row, as Saleae Logic 1 and 2 export it in any of their notations",
+                  true, looks_like_csv, read_csv},
     RecordingForm{"characters", "text logs with the characters themselves: ?W<CR><LF>, \"?W\\r\\n\"", true,
                   looks_like_character_log, read_character_log},
     RecordingForm{"dump", "dumps of recorded bytes: xxd, hexdump, od with -t x1, x2, o1, o2; without times", true,
@@ -85,6 +88,25 @@ void note_times_that_run_backwards(LineRecording& recording) {
     }
     if (frame.at) last = frame.at;
   }
+}
+
+/// Takes what a log says of its line in words, as far as the user gives nothing else, with a note.
+void take_stated_line(LineRecording& recording, std::string_view bytes, const ReadingChoices& choices) {
+  const bool has_times =
+      std::ranges::any_of(recording.frames, [](const RecordedFrame& frame) { return frame.at.has_value(); });
+  if (recording.line || recording.over_tcp || !has_times) return;
+  const StatedLine stated = stated_line(bytes);
+  recording.timeout = stated.timeout;
+  if (stated.number == 0) return;
+  const auto note = [&](std::string_view said, std::string_view counts) {
+    recording.notes.push_back(fmt::format("line {}: it says {}: {}", stated.number, said, counts));
+  };
+  if (stated.is_contradictory) return note("one rate, and other lines another", "--baud says which it is");
+  const SerialFormat said = stated.line.over(choices.usual), taken = choices.line.over(said);
+  recording.line = taken;
+  if (taken == said && said != choices.usual) note(format_text(said), "silences are those of such a line");
+  if (taken != said)
+    note(format_text(said), fmt::format("silences are those of {}, as the options say", format_text(taken)));
 }
 
 /// The mark of UTF-16 that a file lacks: every other byte of ASCII in it is 00. Empty: it lacks none.
@@ -250,12 +272,16 @@ Result<LineRecording> read_recording(std::string_view file, const ReadingChoices
   if (form->is_log) read_modbus_tcp(*recording);
   recording->over_tcp = std::ranges::any_of(recording->frames, [](const RecordedFrame& frame) { return frame.stream != 0; });
   note_times_that_run_backwards(*recording);
+  if (is_text(bytes)) take_stated_line(*recording, bytes, choices);
+  if (choices.samplerate != 0 && !form->counts_samples)
+    recording->notes.emplace_back("--samplerate is not used: it does not count samples");
   const bool table = form->looks_like == is_text && is_table_without_bytes(bytes);
   const bool without_bytes = std::ranges::all_of(recording->frames, [](const RecordedFrame& frame) {
     return frame.doubt && frame.bytes.empty() && frame.doubt->readings.empty();
   });
-  const bool one_value_each =  // `10:00:00,21,35` below `time,temp,pressure`
-      std::ranges::all_of(recording->frames, [](const RecordedFrame& frame) { return frame.bytes.size() <= 1; });
+  constexpr std::size_t kFewestBytes = 6;  // ten digits, the most of a double word, are five
+  const bool one_value_each =              // `10:00:00,21,35` below `time,temp,pressure`
+      std::ranges::all_of(recording->frames, [](const RecordedFrame& frame) { return frame.bytes.size() < kFewestBytes; });
   if (without_bytes || (table && one_value_each)) {
     std::string reason = table ? "no column found for the bytes: name it Hex" : "no frames found";
     for (const std::string& note : recording->notes) reason += "; " + note;

@@ -57,6 +57,7 @@ struct LineRecording {
   std::optional<SerialFormat> line{};  ///< if the recording shows it
   bool is_log = false;               ///< programs have noted its times when they were told; a capture has those of the line
   bool over_tcp = false;             ///< its frames were messages of Modbus TCP
+  std::optional<Time> timeout{};     ///< of the master, if the recording says it
   std::vector<std::string> notes{};  ///< what was left out, and why
 };
 
@@ -81,6 +82,7 @@ struct RecordingForm {
   bool is_log;               ///< CSV counts as one: analysers write it, but so do programs
   bool (*looks_like)(std::string_view bytes);
   Result<LineRecording> (*read)(std::string_view bytes, const ReadingChoices& choices);
+  bool counts_samples = false;  ///< so that a samplerate makes times of them
 };
 std::span<const RecordingForm> recording_forms();
 

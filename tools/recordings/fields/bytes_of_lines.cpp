@@ -52,6 +52,16 @@ std::optional<BytesInLine> BytesOfLines::in(std::string_view line) {
   return found;
 }
 
+/// Whether bytes stand once more in brackets behind themselves: `01 03 00 (01 03 00)`.
+bool stands_twice(Words run, const Bytes& bytes) {
+  const std::size_t half = bytes.size() / 2;
+  const auto second = std::ranges::find_if(
+      run, [&](const Word& word) { return word.first_byte == run.front().first_byte + half && word.text.front() == '('; });
+  return half > 1 && bytes.size() % 2 == 0 && second != run.end() && run.back().text.back() == ')' &&
+         std::equal(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(half),
+                    bytes.begin() + static_cast<std::ptrdiff_t>(half));
+}
+
 std::optional<BytesInLine> BytesOfLines::among_words(std::string_view line) {
   take_apart(without_comment(line));
   if (auto labelled = bytes_with_name_of_crc()) return labelled;
@@ -71,6 +81,7 @@ std::optional<BytesInLine> BytesOfLines::among_words(std::string_view line) {
   }
   if (!after.empty() && after.front().text == "|") found.next_cell = after.front().begin + 1;
   found.bytes = bytes_of(run->words);
+  if (stands_twice(run->words, found.bytes)) found.bytes.resize(found.bytes.size() / 2);
   if (const auto other = other_run(run->words, after)) {
     found.not_understood = other->without;
     found.readings = {{found.bytes, false}, {bytes_of(other->words), true}};
@@ -82,8 +93,7 @@ std::optional<BytesInLine> BytesOfLines::among_words(std::string_view line) {
 std::optional<BytesInLine> BytesOfLines::bytes_with_name_of_crc() const {
   const auto is_name = [&](const Word& word) {
     const std::string_view name = word.text.substr(0, word.text.find_last_not_of(":=([") + 1);
-    return word.bytes == 0 && is_any_of(word.text.front(), "CcLl") &&
-           is_name_of_check_sum(name);
+    return word.bytes == 0 && is_any_of(word.text.front(), "CcLl") && is_name_of_check_sum(name);
   };
   const auto name = std::ranges::find_if(words_, is_name);
   if (name == words_.end() || name == words_.begin()) return {};

@@ -147,6 +147,11 @@ Direction direction_of(std::string_view written) {
   return request ? Direction::Request : Direction::Answer;
 }
 
+Direction direction_in_cell(std::string_view cell) {
+  const std::string word = stl::upper_case(stl::trim(cell));
+  return word == "OUT" ? Direction::Request : word == "IN" ? Direction::Answer : direction_of(cell);
+}
+
 Direction direction_beside_bytes(std::string_view text) {
   const auto is_other = [](char c) { return !is_word_sign(c); };
   const auto end = std::find_if_not(text.rbegin(), text.rend(), is_other).base();

@@ -195,6 +195,17 @@ bool is_of_prose(const Word& word) {
          !names_a_direction(word);
 }
 
+/// Whether a word is the number of something, as modpoll and mbpoll print registers: `[11]:`
+bool is_reference(std::string_view word) {
+  return word.size() > 3 && word.starts_with('[') && word.ends_with("]:") && is_decimal(word.substr(1, word.size() - 3));
+}
+
+/// Whether a word names the answer of a modem, `+CSQ:`, whose numbers are in decimal.
+bool names_answer_of_modem(std::string_view word) {
+  return word.size() > 2 && word.starts_with('+') && word.ends_with(':') &&
+         std::ranges::all_of(word.substr(1, word.size() - 2), is_letter);
+}
+
 /// Whether a word is a name with a colon: `temp:`, `D100:`
 bool is_name_with_colon(std::string_view word) {
   const auto is_of_name = [](char c) { return is_word_sign(c) || c == '.' || (c & 0x80) != 0; };
@@ -225,7 +236,8 @@ bool names_a_direction(const Word& word) { return direction_of(word.text) != Dir
 bool are_values(Words before, Words run) {
   constexpr std::size_t kShortestFrame = 4;
   const std::size_t bytes = run.back().first_byte + run.back().bytes - run.front().first_byte;
-  return bytes < kShortestFrame && name_of_values(before) != nullptr;
+  const bool of_modem = !before.empty() && names_answer_of_modem(before.back().text);
+  return bytes < kShortestFrame && (of_modem || name_of_values(before) != nullptr);
 }
 
 const Word* what_is_doubtful(Words before, Words run, Words after) {
@@ -294,16 +306,17 @@ std::string in_single_bytes(std::string_view text) {
 }
 
 bool is_value(Words before, Words run) {
-  constexpr std::size_t kLongest = 4;
-  if (before.empty() || run.size() != 1 || run.front().bytes > kLongest) return false;
+  constexpr std::size_t kLongest = 4, kAddress = 6;  // an address in memory: `alloc 0x7ffdeadbeef0`
+  if (before.empty() || run.size() != 1) return false;
+  if (run.front().bytes > (is_marked(run.front().text) ? kAddress : kLongest)) return false;
   if (std::ranges::any_of(before, names_bytes)) return false;
   if (is_assigned(before, run)) return true;
   const std::string_view text = run.front().text, name = before.back().text;
   const bool is_number = is_decimal(text) || is_marked(text);
   const bool numbered = before.size() > 1 && name.ends_with(':') && is_decimal(name.substr(0, name.size() - 1)) &&
                         is_plain_word(before[before.size() - 2]);  // `value 0: 4660`
-  return is_number &&
-         (numbered || is_plain_word(before.back()) || is_name_with_colon(name) || (before.size() > 1 && has_clock(name)));
+  return is_number && (numbered || is_reference(name) || is_plain_word(before.back()) || is_name_with_colon(name) ||
+                       (before.size() > 1 && has_clock(name)));
 }
 
 bool is_of_a_sentence(Words before, Words run, Words after) {

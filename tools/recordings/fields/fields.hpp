@@ -52,6 +52,9 @@ bool is_name_of_time(std::string_view name);
 /// The direction that a word names: TX, sent, request, > … ask; RX, received, response, < … answer.
 Direction direction_of(std::string_view text);
 
+/// What a cell says of the direction. IN and OUT are those of USB, as its host has them; sentences have such words, too.
+Direction direction_in_cell(std::string_view cell);
+
 /// The direction of IN or OUT as the last word before bytes; sentences have these words elsewhere.
 Direction direction_beside_bytes(std::string_view before);
 
@@ -75,8 +78,12 @@ bool has_clock(std::string_view text);
 /// The first word that somebody may have meant for a time: `8:15`, `1100 ms` without its blank. Empty: there is none.
 std::string_view time_like_word(std::string_view text);
 
-/// The length of the name before a time: `T=`, `time: `. 0: there is none.
-std::size_t length_of_name_of_time(std::string_view text);
+/// The name before a time: `T=`, `time: `, `T+`; `Δt=` and `dt=` name the difference to the row above.
+struct NameOfTime {
+  std::size_t length = 0;  ///< 0: there is none
+  bool is_difference = false;
+};
+NameOfTime name_of_time(std::string_view text);
 
 /// The bytes of a line: one run of words in hex after what names them, with nothing after it but a comment.
 struct BytesInLine {

@@ -249,17 +249,22 @@ std::optional<LeadingTime> minutes_since(std::string_view text) {
   return LeadingTime{.time = time, .length = scan.at()};
 }
 
-/// A time since 1970 in milliseconds or nanoseconds: `1616595070123`. Numbers of so many digits are no pairs of digits.
+/// A time since 1970 in milliseconds, microseconds or nanoseconds: `1616595070123`. Numbers of 13 and 19 digits are no pairs
+/// of digits; those of 16 are a time before something else, from 2008 on.
 std::optional<LeadingTime> time_since_1970(std::string_view text) {
-  constexpr std::size_t kMilliseconds = 13, kNanoseconds = 19;
+  constexpr std::size_t kMilliseconds = 13, kMicroseconds = 16, kNanoseconds = 19;
   Scan scan(text);
   scan.skip(kBeforeTime);
   if (scan.next() != '1') return {};  // from 2001 to 2033
   const std::string_view digits = scan.take_digits(kNanoseconds + 1);
-  if (digits.size() != kMilliseconds && digits.size() != kNanoseconds) return {};
+  const bool in_microseconds = digits.size() == kMicroseconds;
+  if (digits.size() != kMilliseconds && digits.size() != kNanoseconds && !in_microseconds) return {};
+  if (in_microseconds && (digits < "12" || stl::trim(text.substr(scan.at())).empty())) return {};
   if (!scan.at_end() && scan.next() != '"' && !is_any_of(scan.next(), kAfterTime)) return {};
   skip_after_time(scan);
-  return LeadingTime{.time = decimal_number(digits) * (digits.size() == kMilliseconds ? kMillisecond : 1),
+  return LeadingTime{.time = decimal_number(digits) * (in_microseconds                  ? kMicrosecond
+                                                       : digits.size() == kMilliseconds ? kMillisecond
+                                                                                        : 1),
                      .length = scan.at()};
 }
 
@@ -382,15 +387,18 @@ std::string_view time_like_word(std::string_view text) {
   return {};
 }
 
-std::size_t length_of_name_of_time(std::string_view text) {
-  constexpr std::array<std::string_view, 6> kNames{"T", "TS", "TIME", "TIMESTAMP", "AT", "ZEIT"};
+NameOfTime name_of_time(std::string_view text) {
+  constexpr std::array<std::string_view, 7> kNames{"T", "TS", "TIME", "TIMESTAMP", "AT", "ZEIT", "ELAPSED"};
+  constexpr std::array<std::string_view, 4> kDifferences{"\u0394t", "\u0394T", "DT", "DELTA"};
   constexpr std::size_t kLongest = 9;
   Scan scan(text);
   scan.skip(kAllBlanks);
   scan.take("[(");
-  const std::string name = stl::upper_case(scan.take_while(stl::is_letter, kLongest));
-  if (scan.take("=:") == '\0' || std::ranges::find(kNames, name) == kNames.end()) return 0;
-  return scan.at();
+  const std::string name = stl::upper_case(scan.take_while(is_letter_of_any_language, kLongest));
+  const char mark = scan.take("=:+");
+  const bool is_difference = std::ranges::find(kDifferences, name) != kDifferences.end();
+  if (mark == '\0' || (!is_difference && std::ranges::find(kNames, name) == kNames.end())) return {};
+  return {scan.at(), is_difference};
 }
 
 bool has_clock(std::string_view text) {

@@ -222,8 +222,9 @@ std::size_t length_of_name(std::string_view word) {
   if (end == 0 || end >= word.size()) return 0;
   const std::string_view name = word.substr(0, end);
   const std::string_view after = word.substr(end);
-  const bool names_it = (name.find('=') == std::string_view::npos || names_bytes({.text = name})) &&
-                        !is_port_of_host(name, after) && !is_sentence_with_commas(name, after);
+  const bool of_a_value = name.find_first_of("=\"") != std::string_view::npos;  // `data=01`, `{"address":17`
+  const bool names_it =
+      (!of_a_value || names_bytes({.text = name})) && !is_port_of_host(name, after) && !is_sentence_with_commas(name, after);
   return names_it ? name.size() : 0;
 }
 

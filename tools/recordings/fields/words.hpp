@@ -72,7 +72,7 @@ bool names_a_direction(const Word& word);
 /// Whether a word is `tx`, `rx_data`, `COM3:`; a name with a number at its end is that of a line.
 bool names_bytes(const Word& word);
 
-/// Whether numbers after such a name are fewer than a frame has.
+/// Whether numbers after a name of values, or of a modem's answer, `+CSQ: 18,99`, are fewer than a frame has.
 bool are_values(Words before, Words run);
 
 /// A word before or after the bytes that makes them doubtful; null if there is none. Bytes before them may be a number or a

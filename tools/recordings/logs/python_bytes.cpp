@@ -19,26 +19,63 @@ struct ShownBytes {
   std::optional<Bytes> bytes{};  ///< nothing: the bytes are not understood
 };
 
-/// The place of the next `b'` or `b"` that does not end a word; npos if there is none.
-std::size_t find_literal(std::string_view line, std::size_t from) {
-  for (std::size_t at = line.find('b', from); at != std::string_view::npos; at = line.find('b', at + 1)) {
-    const bool opens = at + 1 < line.size() && (line[at + 1] == '\'' || line[at + 1] == '"');
-    const bool in_word = at > 0 && (stl::is_letter(line[at - 1]) || stl::is_digit(line[at - 1]));
-    if (opens && !in_word) return at;
+/// Bytes in a line, as Python shows them: `b'\x01\x03'`, or of Python 2 and of texts `'\x01\x03'`.
+struct Literal {
+  std::size_t begin = std::string_view::npos, end = std::string_view::npos;  ///< of what is between the quotation marks
+  std::size_t place = std::string_view::npos;                                ///< of its first sign
+
+  bool any() const { return place != std::string_view::npos; }
+  bool is_closed(std::string_view line) const { return end < line.size(); }
+};
+
+/// The next of them that does not end a word. One without its `b` has an escape in hex; in double quotes, as Python writes
+/// what has a single one.
+Literal find_literal(std::string_view line, std::size_t from) {
+  constexpr std::string_view kMarks = "'\"";
+  char unclosed = '\0';  // a mark to which the line has no other
+  for (std::size_t at = line.find_first_of(kMarks, from); at != std::string_view::npos;
+       at = line.find_first_of(kMarks, at + 1)) {
+    const bool is_bytes = at > from && line[at - 1] == 'b';
+    const std::size_t place = at - (is_bytes ? 1 : 0);
+    const bool in_word = place > 0 && (stl::is_letter(line[place - 1]) || stl::is_digit(line[place - 1]));
+    if (in_word || line[at] == unclosed) continue;
+    std::size_t end = at + 1;
+    while (end < line.size() && line[end] != line[at]) end += line[end] == '\\' ? 2U : 1U;
+    const std::string_view inner = line.substr(at + 1, end - at - 1);
+    if (end >= line.size()) unclosed = line[at];
+    const bool is_text = line[at] == '"' && inner.find('\'') == std::string_view::npos;
+    if (is_bytes || (!is_text && inner.find("\\x") != std::string_view::npos)) return {at + 1, end, place};
   }
-  return std::string_view::npos;
+  return {};
+}
+
+/// The characters of a text up to U+00FF are its bytes.
+std::optional<Bytes> bytes_shown(std::string_view line, const Literal& literal) {
+  const std::string_view inner = line.substr(literal.begin, literal.end - literal.begin);
+  if (line[literal.place] == 'b' || stl::is_ascii(inner)) return bytes_of_literal(inner);
+  const auto characters = in_latin_1(inner);
+  if (!characters) return {};
+  return bytes_of_literal({reinterpret_cast<const char*>(characters->data()), characters->size()});
+}
+
+/// The same bytes in hex, as minimalmodbus writes them after the text: ` (05 06 00 10 12 34 84 FC)`. Nothing for a number of
+/// bytes in brackets.
+std::optional<Bytes> hex_in_brackets(std::string_view after) {
+  constexpr std::string_view kOpens = " (";
+  if (!after.starts_with(kOpens)) return {};
+  const std::string_view inner = after.substr(kOpens.size(), after.find(')') - kOpens.size());
+  const auto bytes = inner.find(' ') == std::string_view::npos ? std::nullopt : bytes_of_text(inner);
+  return bytes;
 }
 
 /// The bytes shown in a line; nothing if there are none. The bytes of several texts in a line are not understood.
 std::optional<ShownBytes> shown_bytes(std::string_view line) {
-  const std::size_t begin = find_literal(line, 0);
-  if (begin == std::string_view::npos) return {};
-  const char mark = line[begin + 1];
-  std::size_t end = begin + 2;
-  while (end < line.size() && line[end] != mark) end += line[end] == '\\' ? 2U : 1U;
-  ShownBytes shown{.before = line.substr(0, begin)};
-  if (end < line.size() && find_literal(line, end + 1) == std::string_view::npos)
-    shown.bytes = bytes_of_literal(line.substr(begin + 2, end - begin - 2));
+  const Literal literal = find_literal(line, 0);
+  if (!literal.any()) return {};
+  ShownBytes shown{.before = line.substr(0, literal.place)};
+  if (!literal.is_closed(line) || find_literal(line, literal.end + 1).any()) return shown;
+  shown.bytes = hex_in_brackets(line.substr(literal.end + 1));
+  if (!shown.bytes) shown.bytes = bytes_shown(line, literal);
   return shown;
 }
 

@@ -11,6 +11,7 @@
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/modbus/rtu_stream.hpp"
+#include "tools/recordings/protocols/heard_functions.hpp"
 #include "tools/recordings/readers.hpp"
 
 namespace s7200::tools {
@@ -89,7 +90,10 @@ std::string modbus_request_text(const RecordedFrame& recorded) {
   const std::uint8_t station = frame[0], function = frame[1];
   const modbus::FunctionRow* row = modbus::find_function(function);
   std::string text = is_to_all(recorded) ? "all stations" : fmt::format("station {}", station);
-  if (row == nullptr) return text + fmt::format(", function {}", function);
+  if (row == nullptr) {
+    const std::string heard = heard_request_text(function, frame.subspan(2, frame.size() - kShortestRtu));
+    return text + ", " + (heard.empty() ? fmt::format("function {}", function) : heard);
+  }
   text += fmt::format(", {}", row->name);
   const std::string carried = carried_text(*row, frame.subspan(2, frame.size() - kShortestRtu));
   if (frame.size() < kShortestRtu + 4) return text + carried;
@@ -187,11 +191,20 @@ ReadFrame judge_modbus(const RecordedFrame& frame, const RecordedFrame* open) {
   return read;
 }
 
+/// The answer of a function that only recordings have; empty for any other.
+std::string answer_of_heard_function(Data answer, Data asked) {
+  if (std::min(answer.size(), asked.size()) < kShortestRtu) return {};
+  const auto data_of = [](Data frame) { return frame.subspan(2, frame.size() - kShortestRtu); };
+  return heard_answer_text(answer[1], data_of(asked), data_of(answer));
+}
+
 std::string modbus_text(const RecordedFrame& frame, const RecordedFrame* open, const ReadFrame& read) {
   const Data bytes(frame.bytes);
   const bool crc = read.right || (bytes.size() >= kShortestRtu && modbus::crc_ok(bytes));
   if (read.direction == Direction::Answer) {
     const std::string instead = crc ? "" : what_it_is_instead(frame, open);
+    const std::string heard = read.right && instead.empty() ? answer_of_heard_function(bytes, open->bytes) : "";
+    if (!heard.empty()) return heard;
     return instead.empty() ? modbus::describe(open->bytes, bytes, modbus::Numbering::Notation) : instead;
   }
   if (!crc) return no_message(frame, open);

@@ -10,6 +10,7 @@
 #include "interpreter/base/result.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/stl/parser.hpp"
 #include "tools/json/base64.hpp"
 #include "tools/recordings/fields/fields.hpp"
 #include "tools/recordings/forms.hpp"
@@ -37,8 +38,12 @@ struct Columns {
   bool of_exchanges = false;     ///< a row has a request and its answer: `Time,Request,Response`
   std::vector<std::size_t> errors{};
   Time unit = kSecond;
-  bool base64 = false;         ///< the name of the data says so
-  std::string unknown_unit{};  ///< the name of the times' column, if its text in brackets is not a unit
+  bool base64 = false;                ///< the name of the data says so
+  std::string unknown_unit{};         ///< the name of the times' column, if its text in brackets is not a unit
+  bool differences = false;           ///< each time counts from the row above
+  std::vector<std::size_t> of_plc{};  ///< those that are called as addresses of the PLC: they have its values
+
+  bool is_of_plc(std::size_t column) const { return std::ranges::find(of_plc, column) != of_plc.end(); }
 };
 
 /// Whether `text`, in any case, contains one of `words`, which are in capitals.
@@ -133,18 +138,36 @@ void find_columns_of_parts(const std::vector<std::string>& names, Columns& colum
   }
 }
 
+bool is_name_of_difference(std::string_view name) {
+  const std::string capitals = stl::upper_case(name);
+  const bool is_short = capitals.starts_with("DT") && (capitals.size() == 2 || !stl::is_letter(capitals[2]));
+  return is_short || contains(name, {"DELTA", "\u0394T"});
+}
+
+/// Whether a column is called as an address of the PLC, `VW20`, `%MB4`, `T37`: it has the values that are there.
+bool is_address_of_plc(std::string_view name) {
+  name = stl::trim(name);
+  if (name.starts_with('%')) name.remove_prefix(1);
+  const auto operand = stl::parse_operand(name);
+  return operand && std::holds_alternative<stl::Address>(operand->value);
+}
+
 Columns columns_of(std::string_view line) {
+  constexpr std::ptrdiff_t kMostColumns = 1000;
   Columns columns{.separator = separator_of(line)};
-  if (columns.separator == 0) return columns;
+  if (columns.separator == 0 || std::ranges::count(line, columns.separator) > kMostColumns) return {};
   const auto names = fields_of(line, columns.separator);
   if (std::ranges::any_of(names, [](const std::string& name) { return leading_time(name).has_value(); })) return columns;
   find_columns_of_bytes(names, columns);
   if (columns.byte_columns == 0) find_columns_of_parts(names, columns);
+  std::optional<std::size_t> difference;
   for (std::size_t i = 0; i < names.size(); ++i) {
+    if (is_address_of_plc(names[i])) columns.of_plc.push_back(i);
+    if (is_name_of_difference(names[i])) difference = difference.value_or(i);
     if (columns.byte_columns > 0 && i >= *columns.data && i < *columns.data + columns.byte_columns) continue;
     if (contains(names[i], {"ERROR"})) {
       columns.errors.push_back(i);
-    } else if (!columns.time && (is_name_of_time(names[i]) || is_unit(names[i]))) {
+    } else if (!columns.time && !is_name_of_difference(names[i]) && (is_name_of_time(names[i]) || is_unit(names[i]))) {
       columns.time = i;
       if (const auto unit = unit_of(names[i]))
         columns.unit = *unit;
@@ -156,6 +179,11 @@ Columns columns_of(std::string_view line) {
       columns.data = i;
       columns.base64 = contains(names[i], {"BASE64", "B64"});
     }
+  }
+  if (!columns.time && difference) {
+    columns.time = difference;
+    columns.differences = true;
+    columns.unit = unit_of(names[*difference]).value_or(columns.unit);
   }
   if (!columns.data || !columns.direction) find_one_for_each_direction(names, columns);
   return columns;
@@ -181,10 +209,10 @@ bool says_error(std::string_view field) {
   return std::ranges::find(kNone, stl::upper_case(stl::trim(field))) == kNone.end();
 }
 
-/// What a cell says of the direction. IN and OUT are those of USB, as its host has them; sentences have such words, too.
-Direction direction_in_cell(std::string_view cell) {
-  const std::string word = stl::upper_case(stl::trim(cell));
-  return word == "OUT" ? Direction::Request : word == "IN" ? Direction::Answer : direction_of(cell);
+/// Whether a cell may be a value in decimal: it has digits alone, fewer than a frame.
+bool may_be_decimal(std::string_view cell) {
+  constexpr std::size_t kOfFrame = 8;
+  return cell.size() < kOfFrame && std::ranges::all_of(cell, stl::is_digit);
 }
 
 /// What the cells of a column are in the first rows below the names.
@@ -195,7 +223,7 @@ struct Cells {
     if (cell.empty()) return;
     ++filled;
     with_direction += direction_in_cell(cell) != Direction::Unknown;
-    const auto read = bytes_of_text(cell);
+    const auto read = may_be_decimal(cell) ? std::nullopt : bytes_of_text(cell);
     with_bytes += read.has_value();
     bytes += read ? read->size() : 0;
     marked += read && cell.starts_with("0x");
@@ -229,7 +257,8 @@ void find_by_cells(const TableRows& rows, Columns& columns) {
   const std::vector<Cells> cells = cells_below(rows, columns);
   if (!columns.data)
     for (std::size_t i = 0; i < cells.size(); ++i)
-      if (i != columns.time && cells[i].are_bytes() && (!columns.data || cells[i].bytes > cells[*columns.data].bytes))
+      if (i != columns.time && !columns.is_of_plc(i) && cells[i].are_bytes() &&
+          (!columns.data || cells[i].bytes > cells[*columns.data].bytes))
         columns.data = i;
   if (columns.direction && *columns.direction < cells.size() && cells[*columns.direction].with_direction > 0) return;
   const auto found = std::ranges::find_if(cells, &Cells::are_directions);
@@ -254,8 +283,9 @@ std::optional<Columns> columns_of_characters(TableRows rows) {
     if (count++ == 0) found.separator = separator_of(row->text);
     if (found.separator == 0) return {};
     take_fields(row->text, found.separator, fields);
+    if (fields.size() < kFewestCells || fields.size() > kMostCells) return {};
     if (columns.empty()) columns.resize(fields.size());
-    if (fields.size() != columns.size() || fields.size() < kFewestCells || fields.size() > kMostCells) return {};
+    if (fields.size() != columns.size()) return {};
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const std::string_view cell = stl::trim(fields[i]);
       columns[i].times = columns[i].times && time_in_cell(cell);
@@ -367,6 +397,8 @@ bool looks_like_csv(std::string_view bytes) {
   if (!is_text(bytes) || bytes.empty()) return false;
   TableRows rows(bytes);
   const Columns columns = take_columns(rows);
+  TableRows below = rows;
+  if (!columns.headless && !next_filled(below)) return false;  // one row alone names nothing
   if (columns.sent) return true;
   if (!columns.data || columns.time) return columns.data.has_value();
   return columns.direction && has_bytes_below(rows, columns);
@@ -391,13 +423,15 @@ Result<LineRecording> read_csv(std::string_view bytes, const ReadingChoices& cho
   std::vector<std::string> fields;
   std::string joined;
   LeftOut left_out;
+  Time since_first = 0;  // of times that are differences
   while (const auto row = rows.next()) {
     if (row->text.find_first_not_of(" \t,;") == std::string::npos) continue;
     take_fields(row->text, columns.separator, fields);
     const auto field = [&](std::optional<std::size_t> column) {
       return column && *column < fields.size() ? std::string_view(fields[*column]) : "";
     };
-    const auto time = columns.time ? time_of(field(columns.time), columns) : std::nullopt;
+    auto time = columns.time ? time_of(field(columns.time), columns) : std::nullopt;
+    if (time && columns.differences) time->time = since_first += time->time;
     const bool is_received = columns.sent && stl::trim(field(columns.sent)).empty();
     const auto data_column = !columns.sent ? columns.data : is_received ? columns.received : columns.sent;
     const std::string_view cell = content_of(data_column ? cell_of(fields, *data_column, columns, joined) : "", columns);
@@ -442,6 +476,7 @@ Result<LineRecording> read_csv(std::string_view bytes, const ReadingChoices& cho
           {.direction = Direction::Answer, .bytes = std::move(*answer), .place = fmt::format("line {}", row->number)});
   }
   count_from_first(recording);
+  if (columns.differences) recording.notes.emplace_back("its times are called differences: each counts from the row above");
   left_out.tell(recording);
   return recording;
 }

@@ -11,6 +11,7 @@
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/rows/lines.hpp"
 #include "tools/recordings/rows/named_fields.hpp"
+#include "tools/recordings/scan.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -138,30 +139,49 @@ void add_fields(const json& object, const std::string& outer, NamedFields& field
   }
 }
 
-/// A member of a layer of a packet as text; empty if it is not there.
-std::string text_in(const json& layers, const char* layer, const char* name) {
+/// A field of a layer of a packet, as tshark names it with -T json, `tcp.payload`, and with -T ek, `tcp_tcp_payload`; `raw`:
+/// in hex, as -T jsonraw and -x write it before the place of its bytes, `tcp.payload_raw`. Empty if it is not there.
+std::string field_in(const json& layers, const std::string& layer, const std::string& name, bool raw = false) {
   const auto of_layer = layers.find(layer);
   if (of_layer == layers.end() || !of_layer->is_object()) return {};
-  const auto member = of_layer->find(name);
-  return member != of_layer->end() && member->is_string() ? member->get<std::string>() : "";
+  const std::string plain = layer + '.' + name, raw_name = plain + "_raw", of_ek = layer + '_' + layer + '_' + name;
+  const auto text = [](const json& value) { return value.is_string() ? value.get<std::string>() : std::string(); };
+  if (const auto member = of_layer->find(raw_name);
+      raw && member != of_layer->end() && member->is_array() && !member->empty())
+    return text(member->front());
+  for (const std::string& each : {plain, of_ek})
+    if (const auto member = of_layer->find(each); !raw && member != of_layer->end()) return text(*member);
+  return {};
 }
 
-/// The fields of a packet of tshark -T json and of Wireshark's export: what TCP or a serial line carries. The server has the
-/// lower port. Nothing for any other object.
+std::string bytes_in_packet(const json& layers, const std::string& layer, const std::string& name) {
+  const std::string plain = field_in(layers, layer, name);
+  return plain.empty() ? field_in(layers, layer, name, true) : plain;
+}
+
+std::optional<std::uint16_t> port_in(const json& layers, const std::string& name) {
+  if (const auto port = parse_decimal<std::uint16_t>(field_in(layers, "tcp", name))) return port;
+  const std::string raw = field_in(layers, "tcp", name, true);
+  constexpr std::size_t kDigits = 4;
+  if (raw.size() != kDigits || !bytes_of_text(raw)) return {};
+  return static_cast<std::uint16_t>(hex_number(raw));
+}
+
+/// The fields of a packet of tshark -T json, jsonraw or ek and of Wireshark's export: what TCP or a serial line carries. The
+/// server has the lower port. Nothing for any other object.
 std::optional<NamedFields> fields_of_packet(const json& object) {
   const auto source = object.find("_source");
-  if (source == object.end() || !source->is_object()) return {};
-  const auto layers = source->find("layers");
-  if (layers == source->end() || !layers->is_object()) return {};
+  const json& packet = source != object.end() && source->is_object() ? *source : object;
+  const auto layers = packet.find("layers");
+  if (layers == packet.end() || !layers->is_object()) return {};
   NamedFields fields;
-  for (const char* const name : {"frame.time_relative", "frame.time_epoch"})
-    if (fields.empty() && !text_in(*layers, "frame", name).empty())
-      fields.push_back({.name = "time", .value = text_in(*layers, "frame", name), .quoted = true});
-  const auto from = parse_decimal<std::uint16_t>(text_in(*layers, "tcp", "tcp.srcport"));
-  const auto to = parse_decimal<std::uint16_t>(text_in(*layers, "tcp", "tcp.dstport"));
+  for (const char* const name : {"time_relative", "time_epoch"})
+    if (fields.empty() && !field_in(*layers, "frame", name).empty())
+      fields.push_back({.name = "time", .value = field_in(*layers, "frame", name), .quoted = true});
+  const auto from = port_in(*layers, "srcport"), to = port_in(*layers, "dstport");
   if (from && to) fields.push_back({.name = "dir", .value = *to < *from ? "tx" : "rx", .quoted = true});
-  const std::string payload = text_in(*layers, "tcp", "tcp.payload");
-  const std::string data = payload.empty() ? text_in(*layers, "data", "data.data") : payload;
+  const std::string payload = bytes_in_packet(*layers, "tcp", "payload");
+  const std::string data = payload.empty() ? bytes_in_packet(*layers, "data", "data") : payload;
   if (!data.empty()) fields.push_back({.name = "data", .value = data, .quoted = true});
   return fields;
 }

@@ -11,7 +11,9 @@
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/fields/fields.hpp"
 #include "tools/recordings/forms.hpp"
+#include "tools/recordings/rows/bare_cells.hpp"
 #include "tools/recordings/rows/lines.hpp"
+#include "tools/recordings/rows/notation.hpp"
 #include "tools/recordings/scan.hpp"
 
 namespace s7200::tools {
@@ -154,6 +156,42 @@ std::optional<std::string> without_heads_of_nsdata(std::string_view text) {
   return plain.append(copied, text.data() + text.size());
 }
 
+/// A mark of base64 before bytes, `b64:`, `base64=`, `base64 `, and how long it is. 0: there is none.
+std::size_t length_of_mark_of_base64(std::string_view text) {
+  for (const std::string_view name : {"base64", "b64", "BASE64", "B64", "Base64"}) {
+    Scan scan(text);
+    if (!scan.take_word(name)) continue;
+    const bool divided = scan.take(":=") != '\0';
+    return scan.skip(" ") > 0 || divided ? scan.at() : 0;
+  }
+  return 0;
+}
+
+/// Whether a word after such a mark is base64 and not of a sentence: `base64 encoded`.
+bool may_be_base64(std::string_view word) { return word.size() > 2 && !std::ranges::all_of(word, stl::is_lower); }
+
+/// The text with bytes in base64 in hex: `TX b64:EQMAawADdoc=`; nothing if there are none.
+std::optional<std::string> without_base64(std::string_view text) {
+  constexpr std::string_view kName = "64", kSigns = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/-_=";
+  std::string plain;
+  const char* copied = text.data();
+  for (std::size_t at = text.find(kName); at != std::string_view::npos; at = text.find(kName, at + kName.size())) {
+    std::size_t begin = at;
+    while (begin > 0 && stl::is_letter(text[begin - 1])) --begin;
+    const bool in_name = begin > 0 && is_word_sign(text[begin - 1]);
+    const std::size_t mark = in_name ? 0 : length_of_mark_of_base64(text.substr(begin));
+    const std::string_view rest = mark == 0 ? "" : text.substr(begin + mark);
+    const std::string_view word = rest.substr(0, std::min(rest.find_first_not_of(kSigns), rest.size()));
+    const auto bytes = may_be_base64(word) ? bytes_of_base64(std::string(word)) : std::nullopt;
+    if (!bytes || (word.size() < rest.size() && !is_any_of(rest[word.size()], kAllBlanks))) continue;
+    plain.append(copied, text.data() + begin);
+    for (const std::uint8_t byte : *bytes) plain += fmt::format("{:02X} ", byte);
+    copied = word.data() + word.size();
+  }
+  if (copied == text.data()) return {};
+  return plain.append(copied, text.data() + text.size());
+}
+
 /// A byte that a line has in decimal and in hex: `11 (0x0B)`, `11(0x0B)`, `11 0x0B`, `0x0B (11)`.
 struct ByteInBoth {
   std::size_t begin = 0, end = 0;  ///< place of both in the line
@@ -247,6 +285,8 @@ std::optional<std::string> in_plain_hex(std::string_view text) {
   std::optional<std::string> plain = has_signs ? std::optional(with_plain_signs(text)) : std::nullopt;
   const auto so_far = [&] { return plain ? std::string_view(*plain) : text; };
   if (auto bytes = without_heads_of_nsdata(so_far())) plain = std::move(bytes);
+  if (auto in_hex = without_base64(so_far())) plain = std::move(in_hex);
+  if (auto cells = without_bare_cells(so_far())) plain = std::move(cells);
   if (auto in_hex = without_decimal(so_far())) plain = std::move(in_hex);
   if (const ByteMark* const mark = mark_of(so_far())) plain = with_plain_bytes(so_far(), *mark);
   return plain;

@@ -29,6 +29,10 @@ constexpr std::array kNames{
     Name{"datetime", Holds::Time},
     Name{"date", Holds::Time},
     Name{"@timestamp", Holds::Time},
+    Name{"uptime", Holds::Time},
+    Name{"elapsed", Holds::Time},
+    Name{"millis", Holds::Time},
+    Name{"micros", Holds::Time},
     Name{"direction", Holds::Direction},
     Name{"dir", Holds::Direction},
     Name{"type", Holds::Direction},
@@ -48,18 +52,22 @@ constexpr std::array kNames{
     Name{"packet", Holds::Data},
     Name{"pdu", Holds::Data},
     Name{"adu", Holds::Data},
-    Name{"station", Holds::Nothing},
-    Name{"unit", Holds::Nothing},
-    Name{"address", Holds::Nothing},
-    Name{"function", Holds::Nothing},
-    Name{"length", Holds::Nothing},  // what follows says how many, or which: `data_length`, `frame.number`
-    Name{"len", Holds::Nothing},
-    Name{"size", Holds::Nothing},
-    Name{"count", Holds::Nothing},
-    Name{"number", Holds::Nothing},
-    Name{"nr", Holds::Nothing},
-    Name{"id", Holds::Nothing},
-    Name{"index", Holds::Nothing},
+    Name{"station", Holds::Number},
+    Name{"unit", Holds::Number},
+    Name{"address", Holds::Number},
+    Name{"function", Holds::Number},
+    Name{"code", Holds::Number},
+    Name{"register", Holds::Number},
+    Name{"registers", Holds::Number},
+    Name{"values", Holds::Number},
+    Name{"length", Holds::Number},  // what follows says how many, or which: `data_length`, `frame.number`
+    Name{"len", Holds::Number},
+    Name{"size", Holds::Number},
+    Name{"count", Holds::Number},
+    Name{"number", Holds::Number},
+    Name{"nr", Holds::Number},
+    Name{"id", Holds::Number},
+    Name{"index", Holds::Number},
     Name{"base64", Holds::Data},
     Name{"b64", Holds::Data},
 };
@@ -84,7 +92,7 @@ FieldMeaning meaning_of(std::string_view name) {
   for (const std::string& word : stl::split_words(words)) {
     const auto known = std::ranges::find(kNames, word, &Name::word);
     if (known != kNames.end()) meaning.holds = known->holds;
-    if (is_name_of_check_sum(word)) meaning.holds = FieldMeaning::Holds::Nothing;
+    if (is_name_of_check_sum(word)) meaning.holds = Holds::Number;
     meaning.base64 |= says_base64(word);
   }
   return meaning;
@@ -100,16 +108,6 @@ std::optional<Bytes> bytes_with_signs_between(std::string_view text) {
     plain[i] = ' ';
   }
   return bytes_of_text(plain);
-}
-
-/// Base64 with the signs of either alphabet of RFC 4648; the signs that fill its end may be missing.
-std::optional<Bytes> bytes_of_base64(std::string text) {
-  constexpr std::size_t kGroup = 4;
-  std::ranges::replace(text, '-', '+');
-  std::ranges::replace(text, '_', '/');
-  while (text.size() % kGroup > 1) text += '=';
-  auto bytes = from_base64(text);
-  return bytes && !bytes->empty() ? std::move(bytes) : std::nullopt;
 }
 
 /// Whether a text can hardly be anything but base64: whole groups of which the last is filled. `/dev/tty` has whole groups.
@@ -156,21 +154,6 @@ Direction direction_in(const NamedFields& fields) {
     if (meaning_of(field.name).holds == Holds::Direction)
       if (const Direction said = direction_of(words_of_name(field.value)); said != Direction::Unknown) return said;
   return Direction::Unknown;
-}
-
-/// The characters of a text as bytes, if none is beyond U+00FF; nothing otherwise.
-std::optional<Bytes> in_latin_1(std::string_view text) {
-  Bytes bytes;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    if (lead < 0x80) {
-      bytes.push_back(lead);
-    } else {
-      if ((lead != 0xC2 && lead != 0xC3) || i + 1 == text.size()) return {};
-      bytes.push_back(static_cast<std::uint8_t>((lead & 0x03) << 6 | (text[++i] & 0x3F)));
-    }
-  }
-  return bytes;
 }
 
 /// Whether a text is of bytes, not for people: it has control characters other than tab and line end.

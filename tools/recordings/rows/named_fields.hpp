@@ -30,7 +30,7 @@ bool has_base64(const NamedFields& fields);
 
 /// The meaning of a field's name.
 struct FieldMeaning {
-  enum class Holds : std::uint8_t { Nothing, Time, Direction, Data } holds = Holds::Nothing;
+  enum class Holds : std::uint8_t { Nothing, Number, Time, Direction, Data } holds = Holds::Nothing;
   Direction direction = Direction::Unknown;  ///< `rx`, `SerialSend`
   std::optional<Time> unit{};                ///< of a time: `time_ms`
   bool base64 = false;                       ///< `payload_base64`

@@ -9,6 +9,7 @@
 
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "tools/json/base64.hpp"
 #include "tools/recordings/fields/fields.hpp"
 #include "tools/recordings/rows/marked_bytes.hpp"
 
@@ -33,9 +34,11 @@ std::optional<Bytes> with_hex(std::string_view cell) {
   return hex.starts_with("(0X") ? one(byte_in_base(std::string_view(hex).substr(3), 16)) : std::nullopt;
 }
 
-/// Binary: `0b00010010`, and `00010010` of sigrok.
+/// Binary: `0b00010010`, `0b0001 0010` with a gap in the middle, and `00010010` of sigrok.
 std::optional<Bytes> binary(std::string_view cell) {
-  const std::string_view digits = cell.starts_with("0b") ? cell.substr(2) : cell;
+  const bool marked = cell.starts_with("0b");
+  std::string digits(marked ? cell.substr(2) : cell);
+  if (marked) std::erase(digits, ' ');
   return digits.size() == 8 ? one(byte_in_base(digits, 2)) : std::nullopt;
 }
 
@@ -169,6 +172,29 @@ std::optional<Bytes> bytes_of_literal(std::string_view text) {
     bytes.push_back(*byte);
   }
   return bytes;
+}
+
+std::optional<Bytes> in_latin_1(std::string_view text) {
+  Bytes bytes;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    if (lead < 0x80) {
+      bytes.push_back(lead);
+    } else {
+      if ((lead != 0xC2 && lead != 0xC3) || i + 1 == text.size()) return {};
+      bytes.push_back(static_cast<std::uint8_t>((lead & 0x03) << 6 | (text[++i] & 0x3F)));
+    }
+  }
+  return bytes;
+}
+
+std::optional<Bytes> bytes_of_base64(std::string text) {
+  constexpr std::size_t kGroup = 4;
+  std::ranges::replace(text, '-', '+');
+  std::ranges::replace(text, '_', '/');
+  while (text.size() % kGroup > 1) text += '=';
+  auto bytes = from_base64(text);
+  return bytes && !bytes->empty() ? std::move(bytes) : std::nullopt;
 }
 
 NotationFinder::NotationFinder() {

@@ -29,6 +29,13 @@ WrittenCharacter without_error(std::string_view cell);
 /// is unknown.
 std::optional<Bytes> bytes_of_literal(std::string_view text);
 
+/// The characters of a text as bytes, if none is beyond U+00FF; nothing otherwise.
+std::optional<Bytes> in_latin_1(std::string_view text);
+
+/// Base64 with the signs of either alphabet of RFC 4648; the signs that fill its end may be missing. Nothing if it is none,
+/// or has no bytes.
+std::optional<Bytes> bytes_of_base64(std::string text);
+
 /// Finds the notation of a column: the first that reads all of its cells.
 class NotationFinder {
  public:

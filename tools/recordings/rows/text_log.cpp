@@ -131,8 +131,14 @@ struct TimeOfRow {
 };
 TimeOfRow time_of_row(std::string_view line) {
   if (const auto time = leading_time(line)) return {{}, time};
-  if (const std::size_t name = length_of_name_of_time(line); name > 0)
-    if (const auto time = leading_time(line.substr(name))) return {{Direction::Unknown, name}, time};
+  if (const NameOfTime name = name_of_time(line); name.length > 0)
+    if (auto time = leading_time(line.substr(name.length))) {
+      time->has_sign |= name.is_difference && !time->of_day;
+      return {{Direction::Unknown, name.length}, time};
+    }
+  if (const std::size_t counter = length_of_counter(line); counter > 0)  // `Tx:000001-10:00:00.000-01 03`
+    if (const auto time = leading_time(line.substr(counter)); time && time->of_day)
+      return {{direction_of(line.substr(0, counter)), counter}, time};
   const LeadingDirection before = leading_direction(line);
   return {before, before.length > 0 ? leading_time(line.substr(before.length)) : std::nullopt};
 }
@@ -142,8 +148,8 @@ std::optional<LeadingTime> time_of_line(std::string_view line) {
   return time_of_row(line.substr(length_of_index(line))).time;
 }
 
-/// Whether all times have a sign, and count from the row above: `+0.037`. Times around a trigger ascend from below 0
-/// instead.
+/// Whether all times have a sign or are called differences, and count from the row above: `+0.037`, `Δt=0.037`. Times
+/// around a trigger ascend from below 0 instead.
 bool has_deltas(std::string_view text) {
   std::size_t times = 0, after = 0;
   bool ascend = true;
@@ -184,9 +190,15 @@ bool has_padded_microseconds(std::string_view text) {
 /// How times of a log are written, as far as one alone does not say it.
 struct TimesOfLog {
   bool deltas = false;               ///< each counts from the row above
+  bool named = false;                ///< and is called a difference
   bool padded_microseconds = false;  ///< socat's
   bool durations = false;            ///< Portmon's: how long each call took
 };
+
+bool calls_times_differences(std::string_view text) {
+  return std::ranges::any_of(Lines(beginning_of(text)),
+                             [](std::string_view line) { return name_of_time(line).is_difference; });
+}
 
 /// Whether Portmon wrote the durations of calls, not the time of day: `0  0.00000559  app.exe  IRP_MJ_WRITE  …`
 bool has_durations(std::string_view text) {
@@ -259,6 +271,7 @@ class LogReader {
     const bool tells_time = time && !(times_.durations && !time->of_day);
     const std::optional<Time> at = tells_time ? std::optional(time_of(*time, line)) : std::nullopt;
     if (time) line.remove_prefix(before.length + time->length);
+    if (time && time->of_day && line.starts_with('-') && bytes_of_text(line.substr(1, 2))) line.remove_prefix(1);
     const std::string_view whole = line;
     const bool is_of_dump = !at && (has_offsets_ || is_dump(line));
     const bool may_be_row = is_of_dump || (!at && (heading_ || goes_on_));
@@ -298,7 +311,9 @@ class LogReader {
     if (times_.durations)
       recording_.notes.emplace_back(
           "no times are known: Portmon wrote how long each call took; its option Clock Time shows when it was");
-    if (times_.deltas) recording_.notes.emplace_back("its times have a plus sign: each counts from the row above");
+    if (times_.deltas)
+      recording_.notes.push_back(fmt::format("its times {}: each counts from the row above",
+                                             times_.named ? "are called differences" : "have a plus sign"));
     count_from_first(recording_);
     return std::move(recording_);
   }
@@ -549,8 +564,10 @@ Result<LineRecording> read_text_log(std::string_view file, const ReadingChoices&
   const std::string_view bytes = plain ? std::string_view(*plain) : file;
   constexpr std::size_t kShortestRow = 16;  // of most logs
   const auto lines = std::min(static_cast<std::size_t>(std::ranges::count(bytes, '\n')) + 1, bytes.size() / kShortestRow);
-  const TimesOfLog times{
-      .deltas = has_deltas(bytes), .padded_microseconds = has_padded_microseconds(bytes), .durations = has_durations(bytes)};
+  const TimesOfLog times{.deltas = has_deltas(bytes),
+                         .named = calls_times_differences(bytes),
+                         .padded_microseconds = has_padded_microseconds(bytes),
+                         .durations = has_durations(bytes)};
   const auto read = [&](bool joins) -> std::optional<LineRecording> {
     LogReader reader(choices, joins, joins ? 0 : lines, times);
     for (const std::string_view line : Lines(bytes, choices.stop)) {

@@ -70,9 +70,10 @@ void RecordingOptions::add_to(CLI::App& verb) {
                            "line, 20 ms",
                            format_duration(kCharacterGap)),
                {1, kLongestDuration});
-  add_duration(verb, "--timeout", timeout,
-               fmt::format("of the master: the same frame after a longer silence is the request repeated, not its echo [{}]",
-                           format_duration(kMasterTimeout)));
+  timeout_ = add_duration(
+      verb, "--timeout", timeout,
+      fmt::format("of the master: the same frame after a longer silence is the request repeated, not its echo [{}]",
+                  format_duration(kMasterTimeout)));
   add_whole_number(verb, "--tcp-port", reading.tcp_port, {1, 65'535}, "of the Modbus TCP server, in a recording", "502");
   for_files_.push_back(verb.get_option("--tcp-port"));
   for_files_.push_back(verb.add_flag("--mbpoll-0", reading.mbpoll_from_zero,
@@ -116,6 +117,8 @@ std::optional<SlaveTarget> RecordingOptions::live() const {
                   "with 's7200 master'",
                   stl::shortened(file)));
 }
+
+bool RecordingOptions::has_timeout() const { return timeout_->count() > 0; }
 
 bool RecordingOptions::was_cut_short() const { return (duration != kNever || !live()) && interrupted(); }
 
@@ -183,6 +186,14 @@ std::optional<ReadRecording> read_file(const RecordingOptions& options) {
   read.stamps = options.complete({.character = over_tcp ? 0 : format.character_time(), .at_end = options.stamps == "end"});
   const bool faster = is_faster_than_said(read.recording, read.stamps);
   read.stamps.exact = !read.recording.is_log && !over_tcp && !faster;
+  const bool says_no_direction = std::ranges::any_of(
+      read.recording.frames, [](const RecordedFrame& frame) { return frame.direction == Direction::Unknown; });
+  if (const auto stated = read.recording.timeout; stated && says_no_direction && !options.has_timeout()) {
+    read.stamps.timeout = *stated;
+    read.recording.notes.push_back(
+        fmt::format("it says a time-out of {}: the same frame after a longer silence is the request repeated, not its echo",
+                    format_duration(*stated)));
+  }
   settle_directions(read.recording, options.spoken(), read.stamps);
   print_notes(read.recording.notes);
   const bool has_times = std::ranges::any_of(read.recording.frames, [](const auto& frame) { return frame.at.has_value(); });

@@ -49,8 +49,11 @@ struct RecordingOptions {
   /// Of the line: as the protocol has it where no option says otherwise.
   SerialFormat format() const;
 
+  bool has_timeout() const;  ///< the user gives one
+
  private:
   std::vector<CLI::Option*> for_files_, for_lines_;
+  CLI::Option* timeout_ = nullptr;
 };
 
 /// A recording with what it says.

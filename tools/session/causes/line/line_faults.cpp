@@ -138,6 +138,7 @@ std::string LineFaults::note_of(const std::vector<const Happening*>& all, const 
   std::string note = "fault " + serial::to_text(first.fault);
   if (first.driver != serial::Faults::kAnyDriver) note += " of " + history_.name_at(line_, first.driver);
   note += fmt::format(": {}×", times);
+  if (first.fault.kind == serial::FaultKind::Answer) return note;  // it is of the whole frame
   const bool is_extra = first.fault.kind == serial::FaultKind::Extra;
   const std::string_view where = !is_extra ? "in" : first.fault.character == 0U ? "in front of" : "behind";
   if (!characters.empty() && characters.size() < frame.characters)
