@@ -30,9 +30,12 @@ std::string line_of(std::uint32_t op, const Program& program) {
   return stl::line_text(program.source, program.statement(op).position.line, kInMainFile);
 }
 
+std::string named_without_comment(std::uint32_t op, const Program& program) {
+  return fmt::format("{} in {}", short_text(program.statement(op)), line_of(op, program));
+}
+
 std::string named_in_sentence(std::uint32_t op, const Program& program) {
-  const stl::Statement& statement = program.statement(op);
-  return fmt::format("{} in {}{}", short_text(statement), line_of(op, program), comment_of(statement));
+  return named_without_comment(op, program) + comment_of(program.statement(op));
 }
 
 }  // namespace s7200

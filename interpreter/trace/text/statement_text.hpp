@@ -21,7 +21,10 @@ std::string line_number(std::uint32_t line, const Program& program);
 /// The place of an instruction: `line 12`; of a file beside the program's own, `stand-in:modbus_slave.awl:230`.
 std::string line_of(std::uint32_t op, const Program& program);
 
-/// `ATCH 120, 10 in line 665  // not quiet yet`
+/// `ATCH 120, 10 in line 665`
+std::string named_without_comment(std::uint32_t op, const Program& program);
+
+/// `ATCH 120, 10 in line 665  // not quiet yet`: at the end of what is said.
 std::string named_in_sentence(std::uint32_t op, const Program& program);
 
 }  // namespace s7200

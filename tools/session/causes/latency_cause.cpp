@@ -113,13 +113,14 @@ std::string wait_text(Time from, Time to, const std::string& what) {
 
 /// How the program came to XMT after it had the last character.
 std::string program_text(const AnswerReader::Transmit& transmit, const Program& program) {
-  const std::string by = named_in_sentence(transmit.op, program);
+  const std::string by = named_without_comment(transmit.op, program);
+  const std::string comment = comment_of(program.statement(transmit.op));
   const std::string contacts = transmit.contacts.empty() ? "" : fmt::format(" ({})", transmit.contacts);
   if (!transmit.in_interrupt)
-    return fmt::format("until the main program came to {}{}, in the scan that began at {}", by, contacts,
-                       moment_text(transmit.scan_begin));
-  return fmt::format("until INT {} executed {}{}; it serves {}", transmit.service->routine, by, contacts,
-                     event_text(transmit.service->event));
+    return fmt::format("until the main program came to {}{}, in the scan that began at {}{}", by, contacts,
+                       moment_text(transmit.scan_begin), comment);
+  return fmt::format("until INT {} executed {}{}; it serves {}{}", transmit.service->routine, by, contacts,
+                     event_text(transmit.service->event), comment);
 }
 
 std::vector<std::string> lines_of(const AnswerReader& reader, const Program& program, const serial::Exchange& exchange) {

@@ -255,8 +255,7 @@ class MemoryInquiry {
   }
 
   std::string could_text(std::uint32_t op, const RungReader& reader) const {
-    std::string name = named_in_sentence(op, program());
-    name.resize(name.size() - comment_of(program().statement(op)).size());
+    const std::string name = named_without_comment(op, program());
     const auto passed = reader.passed_over.find(op);
     if (passed == reader.passed_over.end()) return fmt::format("{} could, which was not executed lately", name);
     const auto& [at, contacts] = passed->second;

@@ -39,7 +39,7 @@ std::string watchdog_text(const Inquiry& inquiry, const State& state) {
   const Witness::Most loop = inquiry.witness().most_repeated(), routine = inquiry.witness().most_served();
   if (loop.times > std::max<std::size_t>(1, routine.times))
     return text +
-           fmt::format(": {} was executed {} times in it", named_in_sentence(loop.what, inquiry.program()), loop.times);
+           fmt::format(": {} was executed {} times in it", named_without_comment(loop.what, inquiry.program()), loop.times);
   return routine.times > 1 ? text + fmt::format(": INT {} was called {} times in it", routine.what, routine.times) : text;
 }
 
@@ -48,15 +48,16 @@ std::string stop_text(const Inquiry& inquiry, const State& state) {
   if (state.fatal_code != 0) {
     const FatalError code{state.fatal_code};
     const std::string where =
-        state.fatal_op == kNoRoutine ? "" : fmt::format(", in {}", named_in_sentence(state.fatal_op, inquiry.program()));
+        state.fatal_op == kNoRoutine ? "" : fmt::format(", in {}", named_without_comment(state.fatal_op, inquiry.program()));
     return fmt::format("the CPU went to STOP with fatal error {:04X}, {}{}{}", state.fatal_code, meaning_of(code), where,
                        code == FatalError::Watchdog ? "; " + watchdog_text(inquiry, state) : "");
   }
   if (state.stopped_by_master) return "a programming device has switched the CPU to STOP";
   const auto& stop = inquiry.witness().stop_executed();
   if (!stop) return {};
-  return fmt::format("the CPU went to STOP by {}{}", named_in_sentence(stop->op, inquiry.program()),
-                     stop->contacts.empty() ? "" : fmt::format(" ({})", stop->contacts));
+  return fmt::format("the CPU went to STOP by {}{}{}", named_without_comment(stop->op, inquiry.program()),
+                     stop->contacts.empty() ? "" : fmt::format(" ({})", stop->contacts),
+                     comment_of(inquiry.program().statement(stop->op)));
 }
 
 /// What called an interrupt routine, if no contact or jump in it has decided anything.
@@ -69,8 +70,8 @@ void find_event_served(Inquiry& inquiry) {
   if (!search.attachment) return;
   const auto& [moment, what, by] = *search.attachment;
   std::string text =
-      fmt::format("{} attached INT {} to {}, which called it at {}", named_in_sentence(by.op, inquiry.program()), routine,
-                  event_text(event), moment_text(since));
+      fmt::format("{} attached INT {} to {}, which called it at {}{}", named_without_comment(by.op, inquiry.program()),
+                  routine, event_text(event), moment_text(since), comment_of(inquiry.program().statement(by.op)));
   inquiry.answers.decision = LastDecision{moment, std::move(text), by};
 }
 

@@ -33,7 +33,7 @@ void find_transmissions_refused(Inquiry& inquiry) {
   const Keeper keeper = what_had_the_port(inquiry, first->at);
   inquiry.add(first->at,
               fmt::format("no answer: {} was refused with run-time error {:04X}, {}{}",
-                          named_in_sentence(first->op, inquiry.program()), first->code, meaning_of(RunError{first->code}),
+                          named_without_comment(first->op, inquiry.program()), first->code, meaning_of(RunError{first->code}),
                           keeper.text.empty() ? "" : ": " + keeper.text),
               keeper);
 }

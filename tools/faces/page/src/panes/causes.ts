@@ -29,7 +29,7 @@ export function linked(line: string): Child[] {
   return parts;
 }
 
-const kOpen = 2;  // levels of the tree that are seen at once
+const kOpen = 4;  // levels of the tree that are seen at once
 
 function since(one: Obstacle): Child[] {
   if (one.since_ns === 0) return [' since power-up'];

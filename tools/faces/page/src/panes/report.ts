@@ -1,5 +1,5 @@
 // The report: what ran, with its verdicts, as a tree; a run is opened at what it found.
-import { h, type Part } from '../dom';
+import { h, kept, type Child, type Part } from '../dom';
 import { ask_why } from '../causes';
 import { can_be_opened, choose_run } from '../report';
 import { go_to } from '../session';
@@ -75,33 +75,70 @@ function action_text(action: Record<string, unknown>): string {
   return `${name} ${words}`.trim();
 }
 
-/** What came from outside, with its moments: that is what brought the run where it is. */
-function what_came(recorded: Recorded | undefined): Part | null {
-  if (!recorded || recorded.count === 0) return null;
+interface Came {
+  at_ns: number;
+  text: string;
+  count: number;
+  last_ns: number;
+}
+
+/** What came from outside; what was the same several times in a row is one. */
+function all_that_came(recorded: Recorded): Came[] {
+  const all: Came[] = [];
   let at_ns = 0;
-  const rows: Part[] = [];
-  for (let i = 0; i < recorded.count && i < kListed; ++i) {
+  for (let i = 0; i < recorded.count; ++i) {
     at_ns += recorded.done.after_ns?.[i] ?? 0;
-    const moment = at_ns;
-    rows.push(h('tr', { key: i }, h('td', {}, h('button', { class: 'link', title: 'Go to this moment', onclick: () => void go_to(moment) }, moment_text(moment))),
-      h('td', { class: 'frame' }, action_text(recorded.actions[recorded.done.action?.[i] ?? 0] ?? {}))));
+    const text = action_text(recorded.actions[recorded.done.action?.[i] ?? 0] ?? {}), last = all[all.length - 1];
+    if (last?.text === text) {
+      ++last.count;
+      last.last_ns = at_ns;
+    } else {
+      all.push({ at_ns, text, count: 1, last_ns: at_ns });
+    }
   }
-  const more = recorded.count - rows.length;
-  return h('div', {}, h('h3', {}, 'From outside'), h('table', { class: 'exchanges' }, h('tbody', {}, rows)), more > 0 ? h('p', { class: 'hint' }, `and ${more} more`) : null);
+  return all;
+}
+
+function moment_link(ns: number): Part {
+  return h('button', { class: 'link', title: 'Go to this moment', onclick: () => void go_to(ns) }, moment_text(ns));
+}
+
+function came_row(one: Came, i: number): Part {
+  return h('tr', { key: i }, h('td', {}, moment_link(one.at_ns)),
+    h('td', { class: 'frame' }, one.text, one.count === 1 ? null : h('span', { class: 'hint' }, `, ${one.count} times, up to `, moment_link(one.last_ns))));
+}
+
+/** With its moments: that is what brought the run where it is. */
+const table_of = kept((recorded: Recorded): Part => {
+  const all = all_that_came(recorded), more = all.slice(kListed).reduce((sum, one) => sum + one.count, 0);
+  return h('div', {}, h('h3', {}, 'From outside'), h('table', { class: 'exchanges' }, h('tbody', {}, all.slice(0, kListed).map(came_row))),
+    more > 0 ? h('p', { class: 'hint' }, `and ${more} more`) : null);
+});
+
+function what_came(recorded: Recorded | undefined): Part | null {
+  return recorded && recorded.count > 0 ? table_of(recorded) : null;
+}
+
+/** How many answers there were in a long run, and the longest. */
+function answers_text(recorded: Recorded | undefined): Child[] {
+  const answers = recorded?.picture?.answers, longest = answers?.longest[0];
+  if (!answers || !longest) return [];
+  return [`${answers.count}, the longest after ${duration_text(longest.answer_ns - longest.end_ns)}, to the request at `, moment_link(longest.at_ns)];
 }
 
 /** Of a run that is no scenario. */
 function summary(report: Report, run: ReportedRun): Part {
   const end_ns = run.recordings?.[0]?.end[2] ?? 0, actions = run.recordings?.[0]?.count ?? 0;
-  const rows = [
-    ['Command', `s7200 ${report.verb}`],
-    run.system === undefined ? ['Program', state.sources[0]?.name ?? ''] : ['System', report.systems?.[run.system]?.name ?? ''],
-    run.system === undefined ? ['CPU', state.hello?.cpu ?? ''] : ['PLCs', (state.hello?.stations ?? []).join(', ')],
-    ['Simulated time', duration_text(end_ns)],
-    ['From outside', actions === 0 ? 'nothing' : `${actions} ${actions === 1 ? 'action' : 'actions'}`],
+  const rows: [string, Child[]][] = [
+    ['Command', [`s7200 ${report.verb}`]],
+    run.system === undefined ? ['Program', [state.sources[0]?.name ?? '']] : ['System', [report.systems?.[run.system]?.name ?? '']],
+    run.system === undefined ? ['CPU', [state.hello?.cpu ?? '']] : ['PLCs', [(state.hello?.stations ?? []).join(', ')]],
+    ['Simulated time', [duration_text(end_ns)]],
+    ['From outside', [actions === 0 ? 'nothing' : `${actions} ${actions === 1 ? 'action' : 'actions'}`]],
+    ['Answers', answers_text(run.recordings?.[0])],
   ];
   return h('div', { class: 'report-pane' },
-    h('table', { class: 'summary' }, h('tbody', {}, rows.map(([name, text]) => h('tr', {}, h('th', { scope: 'row' }, name!), h('td', {}, text!))))),
+    h('table', { class: 'summary' }, h('tbody', {}, rows.filter(([, said]) => said.length > 0).map(([name, said]) => h('tr', {}, h('th', { scope: 'row' }, name), h('td', {}, said))))),
     h('p', { class: 'hint' }, 'This page has the program, what came from outside and the simulator: it computes any moment of the run again, and runs on from there.'),
     what_came(run.recordings?.[0]));
 }
