@@ -35,13 +35,15 @@ class Watcher final : public TraceSink {
  public:
   explicit Watcher(SeenTimes& seen) : seen_(seen) {}
   void record(const TraceRecord& record) override {
+    if (record.kind == TraceKind::ServiceBegin) waited_ = record.at - record.since;
+    if (record.kind != TraceKind::ServiceEnd) return;
     SeenTimes::OfEvent& event = seen_.events[record.event];
-    if (record.kind == TraceKind::ServiceBegin) event.latency = std::max(event.latency, record.at - record.since);
-    if (record.kind == TraceKind::ServiceEnd)
-      event.longest_routine = std::max(event.longest_routine, record.at - record.since);
+    event.latency = std::max(event.latency, waited_);
+    event.longest_routine = std::max(event.longest_routine, record.at - record.since);
   }
 
  private:
+  Time waited_ = 0;  // of the interrupt that is served
   SeenTimes& seen_;
 };
 
@@ -55,7 +57,7 @@ TimeTable slowest(const TimeTable& times) {
 }
 
 std::optional<SeenTimes> seen_times(const Inspection& inspection) {
-  if (has_unread(*inspection.program)) return {};
+  if (inspection.has_errors || has_unread(*inspection.program)) return {};
   SeenTimes seen{kRun, 0, {}};
   Watcher watcher(seen);
   EventQueue queue;

@@ -39,6 +39,17 @@ TEST(SeenTimes, AreWithinTheBoundsOfOurPrograms) {
   EXPECT_GT(compared, 3U);
 }
 
+TEST(SeenTimes, HasNothingOfAnInterruptThatIsNeverServed) {
+  constexpr std::string_view kAttached = "LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\n",
+                             kRest = "MEND\nINT 0\nLD SM0.0\nINCW VW0\nRETI\n";
+  const auto seen = [&](std::string_view enables) {
+    return seen_times(test::inspected(std::string(kAttached) + std::string(enables) + std::string(kRest)))
+        ->events.contains(10);
+  };
+  EXPECT_TRUE(seen("ENI\n"));
+  EXPECT_FALSE(seen(""));
+}
+
 TEST(SeenTimes, TheSlowestTableTakesEachFigureAtTheEndOfItsRange) {
   TimeRow row;
   row.mnemonics = {"LD"};

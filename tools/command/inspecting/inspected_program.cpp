@@ -54,11 +54,14 @@ std::shared_ptr<const Program> known_program(const CpuOptions& options, ProgramF
 
 std::optional<Inspection> inspected(const CpuOptions& options, ProgramFiles& file, const Question& question,
                                     TablesByCpu& tables, const Waiter& waiter, int& exit_code) {
-  auto program = known_program(options, file, tables, exit_code);
+  int errors = kFine;
+  auto program = known_program(options, file, tables, errors);
+  exit_code = std::max(exit_code, errors);
   if (!program) return {};
   const CpuModel* const model = program->model;
   const TimeTable* const times = tables.of(*model);
   std::optional<Inspection> inspection(std::in_place, std::move(program), waiter);
+  inspection->has_errors = errors != kFine;
   inspection->lose_word = worst_instant;
   inspection->see_times = seen_times;
   inspection->slowest = [&file, model, times] { return decode_program(file.text.parsed, *model, slowest(*times)).known; };

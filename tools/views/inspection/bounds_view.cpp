@@ -21,6 +21,10 @@ constexpr std::string_view kInterrupted = "interrupted before the bounds were kn
 
 std::string ms(Time time) { return fmt::format("{:.3f} ms", static_cast<double>(time) / kMillisecond); }
 
+bool has_no_times(const Inspection& inspection) {
+  return inspection.has_errors || has_unread(*inspection.program) || inspection.program->times.rows().empty();
+}
+
 /// The bounds with the times of the table, and with the slowest that are possible.
 struct Both {
   Bounds usual, slow;
@@ -88,6 +92,7 @@ std::string event_text(const Inspection& inspection, const Bounds::OfEvent& even
   if (event.period && event.longest_routine > *event.period)
     text += "; the routine is longer than the time between two of them";
   const auto found = seen ? seen->events.find(event.event) : std::map<std::uint8_t, SeenTimes::OfEvent>::const_iterator{};
+  if (seen && found == seen->events.end()) text += "; not seen";
   if (seen && found != seen->events.end())
     text += fmt::format("; seen: {}, after {}", ms(found->second.longest_routine), ms(found->second.latency));
   return "  " + wrapped_at(text, 4, 2) + "\n";
@@ -160,7 +165,7 @@ std::optional<SeenTimes> seen_in(const Inspection& inspection) {
 }  // namespace
 
 std::string bounds_text(const Inspection& inspection) {
-  if (has_unread(*inspection.program) || inspection.program->times.rows().empty()) return std::string(kErrors) + "\n";
+  if (has_no_times(inspection)) return std::string(kErrors) + "\n";
   const Both both = bounds_of(inspection);
   if (!both.are_complete()) {
     const std::string known = all_loops_text(inspection, both);
@@ -178,7 +183,7 @@ std::string bounds_text(const Inspection& inspection) {
 }
 
 ordered_json bounds_json(const Inspection& inspection) {
-  if (has_unread(*inspection.program) || inspection.program->times.rows().empty()) return nullptr;
+  if (has_no_times(inspection)) return nullptr;
   const Both both = bounds_of(inspection);
   if (!both.are_complete()) return nullptr;
   const auto seen = seen_in(inspection);

@@ -23,8 +23,8 @@ namespace s7200::tools {
 struct LostWord {
   std::string situation;                ///< the memory and the inputs that it begins with
   std::uint32_t after = 0;              ///< the op of the main program after which the interrupt comes
-  std::string place;                    ///< memory that is different in the end: `VW10`
-  std::string between, before, behind;  ///< its value, in hex: of that run and of the two others
+  std::string place;                    ///< memory that is different in the end: `VW10`; several: `VW10, VW20`
+  std::string between, before, behind;  ///< its values, in hex: of that run and of the two others
 };
 
 /// The largest times of a run with random inputs and characters.
@@ -35,7 +35,7 @@ struct SeenTimes {
   };
   Time run = 0;  ///< how long it was, in ns of simulated time
   Time scan = 0;
-  std::map<std::uint8_t, OfEvent> events;
+  std::map<std::uint8_t, OfEvent> events;  ///< whose routine ran
 };
 
 /// A program with what is known of it, and what was asked about. The program may have errors; then what they are in is
@@ -44,11 +44,12 @@ struct Inspection {
   std::shared_ptr<const Program> program;
   Waiter waiter;  ///< if it asks to end, views have what is known by then, and say so
   Facts facts;
+  bool has_errors = false;  ///< then it is never run, also if all of it could be read
   Selection selection{};
   /// Looks for a run in which a race loses a word. Empty: none is looked for; whoever can run programs sets it.
   std::function<std::optional<LostWord>(const Inspection&, const Race&)> lose_word{};
   StatedLoops stated_loops{};  ///< how often loops run at most, as the user says
-  bool ascii = false;  ///< drawings are made of characters that a 7-bit terminal has
+  bool ascii = false;          ///< drawings are made of characters that a 7-bit terminal has
   /// Runs the program. Empty, or nothing returned: it cannot be run.
   std::function<std::optional<SeenTimes>(const Inspection&)> see_times{};
   /// The program with the slowest times that are possible by their uncertainty. Empty: they are not known.
