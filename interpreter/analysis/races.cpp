@@ -1,13 +1,17 @@
 #include "interpreter/analysis/races.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
+#include <optional>
 #include <set>
+#include <span>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
+#include "interpreter/analysis/cross_reference.hpp"
 #include "interpreter/analysis/effects/memory_names.hpp"
+#include "interpreter/analysis/effects/value_boxes.hpp"
 #include "interpreter/analysis/flow/first_scan.hpp"
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/program/loading/unread.hpp"
@@ -16,12 +20,16 @@ namespace s7200 {
 namespace {
 
 constexpr std::uint64_t kBitsOfByte = 8, kBitsOfWord = 16, kBitsOfDouble = 32;
-constexpr std::uint32_t kFarthest = 300;  ///< ops between a read and a write that depends on it
+constexpr std::size_t kFarthest = 300;                          ///< steps between a read and a write that depends on it
+constexpr std::size_t kMostSteps = 60'000;                      ///< of a program with its subroutines where they are called
+constexpr std::size_t kMostDepth = 8;                           ///< calls in each other
+constexpr std::uint64_t kMostBits = kBitsOfByte * 255;          ///< that a block has
+constexpr std::uint64_t kBitsOfFrame = std::uint64_t{1} << 40;  ///< more than the image has
 
 bool is_shared(const Bits& bits) {
   constexpr Areas kShared =
       set_of(Area::V) | set_of(Area::M) | set_of(Area::S) | set_of(Area::Q) | set_of(Area::T) | set_of(Area::C);
-  return contains(kShared, area_of(bits));
+  return bits.first < kBitsOfFrame && contains(kShared, area_of(as_named(bits)));
 }
 
 Bits overlap_of(const Bits& a, const Bits& b) {
@@ -29,102 +37,225 @@ Bits overlap_of(const Bits& a, const Bits& b) {
   return {first, end > first ? end - first : 0};
 }
 
-/// Where the accesses of ops are, as exactly as the program says.
+/// An access of an op, as exactly as the program says.
+struct Access {
+  Bits bits;
+  Role role = Role::In;
+  bool certain = false;    ///< each execution with power flow accesses all of it
+  bool somewhere = false;  ///< it is of some part of the bits: a pointer, a table or a string says of which
+  bool anywhere = false;   ///< in an area
+  bool of_operand = false;
+  std::uint32_t pointer = 0;  ///< in the image, that leads to it; 0: none
+
+  bool reads() const { return role != Role::Out; }
+  bool writes() const { return role != Role::In; }
+};
+
 class Accesses {
  public:
   explicit Accesses(const Facts& facts) : facts_(facts) {
     for (std::uint32_t op = 0; op < facts.effects.size(); ++op) {
-      std::vector<MemoryAccess> of_op;
-      for (MemoryAccess access : facts.effects[op]) {
-        if (is_table(op, access)) continue;
-        if (access.by_pointer) access.bits = through_pointer(op, access);
-        if (access.bits.count != 0 && access.bits.count <= 8 * 255) of_op.push_back(access);
-      }
-      all_.push_back(std::move(of_op));
+      all_.emplace_back();
+      for (const MemoryAccess& access : facts.effects[op]) add(op, access);
     }
   }
 
-  const std::vector<MemoryAccess>& of(std::uint32_t op) const { return all_[op]; }
+  const std::vector<Access>& of(std::uint32_t op) const { return all_[op]; }
 
- private:
-  /// Whether memory says how far an access goes: a message of XMT and RCV, which the system sends and stores, or a table.
-  bool is_table(std::uint32_t op, const MemoryAccess& access) const {
-    return access.operand != kNoOperand && facts_.program.ops[op].instruction->operand[access.operand].most != 0;
+  Access access_of(std::uint32_t op, const MemoryAccess& access) const {
+    Access result{access.bits, access.role, access.certainty == Certainty::Must};
+    result.of_operand = access.operand != kNoOperand;
+    result.anywhere = is_anywhere(facts_.program, access);
+    if (!access.by_pointer || access.operand == kNoOperand) return result;
+    result.pointer = facts_.program.ops[op][access.operand].at;
+    const auto places = facts_.pointers.targets(op, result.pointer);
+    result.somewhere = places.size() != 1 || places.front().to != places.front().from + 1;
+    result.certain = !result.somewhere;
+    return result;
   }
 
-  /// What an access through a pointer is of; nothing if that is not known.
-  Bits through_pointer(std::uint32_t op, const MemoryAccess& access) const {
-    if (access.bits.count <= kBitsOfDouble) return access.bits;
-    if (access.operand == kNoOperand) return {};
-    const auto places = facts_.pointers.targets(op, facts_.program.ops[op][access.operand].at);
-    const bool at_one_place = places.size() == 1 && places.front().to == places.front().from + 1;
-    return at_one_place ? access.bits : Bits{0, 0};
+ private:
+  void add(std::uint32_t op, const MemoryAccess& access) {
+    const Instruction& instruction = *facts_.program.ops[op].instruction;
+    const bool is_operand = access.operand != kNoOperand;
+    const OperandRule rule = is_operand ? instruction.operand[access.operand] : OperandRule{};
+    Access added = access_of(op, access);
+    if (rule.most != 0 && !rule.text) {
+      const bool table = rule.width == Width::Word && rule.role == Role::InOut && access.certainty == Certainty::Must;
+      if (table) add_table(added);
+      return;  // messages belong to the port
+    }
+    added.somewhere |= rule.text && access.certainty == Certainty::May;
+    if (added.somewhere || added.bits.count <= kMostBits) all_[op].push_back(added);
+  }
+
+  /// ATT, FIFO and LIFO count what is in their table, in its second word.
+  void add_table(Access access) {
+    access.bits = {access.bits.first + kBitsOfWord, kBitsOfWord};
+    all_.back().push_back(access);
   }
 
   const Facts& facts_;
-  std::vector<std::vector<MemoryAccess>> all_{};
+  std::vector<std::vector<Access>> all_{};
 };
 
-/// Ops during which DISI surely keeps interrupts away.
-class Protection {
- public:
-  Protection(const Facts& facts, const Calls& calls) : facts_(facts), calls_(calls) {}
+/// An op of a routine in the order of the text, with subroutines where they are called, or what a CALL or a RET does to a
+/// parameter.
+struct PlacedOp {
+  std::uint32_t op = 0;
+  std::uint32_t call = 0;  ///< which execution of a routine it belongs to; 0: that which begins
+  std::vector<Access> accesses{};
+};
 
-  /// Whether no interrupt comes between two ops of a routine.
-  bool covers(std::uint32_t first, std::uint32_t last) const {
-    const Routine& routine = facts_.flow.routine_of(first);
-    if (contains_enabling(first, last)) return false;
-    for (std::uint32_t i = first; i-- > routine.first;) {
-      if (is_enabling(i)) return false;
-      if (facts_.program.ops[i].instruction->mnemonic == "DISI") return is_executed_with(i, first);
-    }
-    return called_protected(facts_.flow.nodes[first].routine, 0);
+/// The steps of a routine and of what it calls.
+class OpsInOrder {
+ public:
+  OpsInOrder(const Facts& facts, const Calls& calls, const Accesses& accesses, const std::vector<bool>& left_out)
+      : facts_(facts), calls_(calls), accesses_(accesses), left_out_(left_out) {}
+
+  std::vector<PlacedOp> of(std::uint32_t routine) {
+    steps_.clear();
+    count_ = 0;
+    expand(routine, 0);
+    return std::move(steps_);
   }
 
  private:
-  bool is_enabling(std::uint32_t op) const {
-    return facts_.program.ops[op].instruction->effect == Effect::EnablesInterrupts;
-  }
-  bool contains_enabling(std::uint32_t first, std::uint32_t last) const {
-    return std::ranges::any_of(calls_.enabling, [&](std::uint32_t op) { return op >= first && op < last; });
-  }
-
-  /// Whether DISI has power flow whenever `op`, later in the routine, has.
-  bool is_executed_with(std::uint32_t disi, std::uint32_t op) const {
-    if (facts_.flow.nodes[disi].powered) return !leads_past(disi, op);
-    for (std::uint32_t i = disi + 1; i < op; ++i) {
-      const Op& between = facts_.program.ops[i];
-      const std::string_view mnemonic = between.instruction->mnemonic;
-      const bool only_takes_power = mnemonic.starts_with('A') && mnemonic != "ALD";
-      if (between.is_contact && !only_takes_power) return false;
-      if (between.instruction->structure != Structure::None) return false;
+  void expand(std::uint32_t routine, std::size_t depth) {
+    const std::uint32_t call = count_++;
+    const Routine& what = facts_.flow.routines[routine];
+    for (std::uint32_t op = what.first; op < what.end; ++op) {
+      const Op& now = facts_.program.ops[op];
+      if (now.instruction->structure == Structure::Call)
+        expand_call(op, call, depth);
+      else
+        add(op, call, depth, returns(now) ? std::vector<Access>{} : accesses_.of(op));
     }
-    return true;
   }
 
-  /// Whether a label, to which a jump may come past DISI, is between them.
-  bool leads_past(std::uint32_t disi, std::uint32_t op) const {
-    for (std::uint32_t i = disi + 1; i <= op; ++i)
-      if (facts_.program.ops[i].instruction->structure == Structure::Label) return true;
-    return false;
+  bool returns(const Op& op) const {
+    return op.instruction->structure == Structure::SubroutineEnd || op.instruction->effect == Effect::ConditionalEnd;
   }
 
-  bool called_protected(std::uint32_t routine, std::size_t depth) const {
-    const auto& called = calls_.nodes[routine].called;
-    if (called.empty() || depth > facts_.flow.routines.size()) return false;
-    return std::ranges::all_of(called, [&](const CallSite& site) {
-      if (!calls_.nodes[site.routine].by_main) return true;
-      const Routine& caller = facts_.flow.routines[site.routine];
-      for (std::uint32_t i = site.op; i-- > caller.first;) {
-        if (is_enabling(i)) return false;
-        if (facts_.program.ops[i].instruction->mnemonic == "DISI") return is_executed_with(i, site.op);
-      }
-      return called_protected(site.routine, depth + 1);
-    });
+  void expand_call(std::uint32_t op, std::uint32_t call, std::size_t depth) {
+    const Op& now = facts_.program.ops[op];
+    add(op, call, depth, {});
+    const auto site = std::ranges::find(facts_.flow.calls, op, &CallSite::op);
+    if (site == facts_.flow.calls.end() || left_out_[op] || depth + 1 > kMostDepth || steps_.size() > kMostSteps) return;
+    if (!calls_.nodes[site->routine].depth) return;  // it calls itself
+    const auto parameters = std::span(facts_.program.parameters).subspan(now[1].at, now[2].at);
+    for (const Parameter& parameter : parameters)
+      if (parameter.role != Role::Out)
+        move(op, call, actual(op, parameter, Role::In, depth), local(parameter, Role::Out, depth));
+    expand(site->routine, depth + 1);
+    const std::uint32_t ret = facts_.flow.routines[site->routine].end - 1;
+    for (const Parameter& parameter : parameters)
+      if (parameter.role != Role::In)
+        move(ret, call, local(parameter, Role::In, depth), actual(op, parameter, Role::Out, depth));
+  }
+
+  void add(std::uint32_t op, std::uint32_t call, std::size_t depth, std::vector<Access> accesses) {
+    for (Access& access : accesses) access.bits = at_depth(access.bits, depth);
+    steps_.push_back({op, call, std::move(accesses)});
+  }
+  void move(std::uint32_t op, std::uint32_t call, const Access& from, const Access& to) {
+    steps_.push_back({op, call, {from, to}});
+  }
+
+  static Bits bits_of(const Operand& operand, Width width) {
+    const std::uint64_t bits = width == Width::Bit ? 1 : kBitsOfByte * bytes_of(width);
+    return {operand.at * kBitsOfByte + (width == Width::Bit ? operand.bit : 0u), bits};
+  }
+  Access local(const Parameter& parameter, Role role, std::size_t depth) const {
+    return {at_depth(bits_of(parameter.local, parameter.width), depth + 1), role, true, false, false, true};
+  }
+  Access actual(std::uint32_t call, const Parameter& parameter, Role role, std::size_t depth) const {
+    const Operand& operand = parameter.actual;
+    if (operand.unread() || operand.at >= image::kConstants) return {{0, 0}, role};
+    if (!operand.pointer) return {at_depth(bits_of(operand, parameter.width), depth), role, true, false, false, true};
+    const auto places = facts_.pointers.targets(call, operand.at);
+    if (places.empty()) return {{0, 0}, role};
+    const Bits bits{places.front().from * kBitsOfByte,
+                    (places.front().to - 1 - places.front().from + bytes_of(parameter.width)) * kBitsOfByte};
+    const bool somewhere = places.size() != 1 || places.front().to != places.front().from + 1;
+    return {bits, role, !somewhere, somewhere, false, true, operand.at};
+  }
+
+  /// Each routine has local memory of its own.
+  static Bits at_depth(const Bits& bits, std::size_t depth) {
+    const Bits local{image::kL * kBitsOfByte, (image::kConstants - image::kL) * kBitsOfByte};
+    return local.overlaps(bits) && local.contains(bits) ? Bits{bits.first + depth * kBitsOfFrame, bits.count} : bits;
   }
 
   const Facts& facts_;
   const Calls& calls_;
+  const Accesses& accesses_;
+  const std::vector<bool>& left_out_;
+  std::vector<PlacedOp> steps_{};
+  std::uint32_t count_ = 0;
+};
+
+/// OpsInOrder during which DISI or DTCH surely keeps interrupts away.
+class Protection {
+ public:
+  Protection(const Facts& facts, const std::vector<PlacedOp>& steps) : facts_(facts), steps_(steps) {}
+
+  /// Whether no interrupt of an event comes between two steps.
+  bool covers(std::size_t first, std::size_t last, std::uint8_t event) const {
+    const auto enables = [](const Op& op) { return op.instruction->effect == Effect::EnablesInterrupts; };
+    const auto disables = [](const Op& op) { return op.instruction->mnemonic == "DISI"; };
+    const auto attaches = [event](const Op& op) {
+      return op.instruction->structure == Structure::Attach && (op[1].unread() || op[1].at == event);
+    };
+    const auto detaches = [event](const Op& op) { return op.instruction->mnemonic == "DTCH" && op[0].at == event; };
+    return is_closed(first, last, enables, disables) || is_closed(first, last, attaches, detaches);
+  }
+
+ private:
+  const Op& op(std::size_t step) const { return facts_.program.ops[steps_[step].op]; }
+
+  template <class Opens, class Closes>
+  bool is_closed(std::size_t first, std::size_t last, const Opens& opens, const Closes& closes) const {
+    for (std::size_t i = first; i < last; ++i)
+      if (opens(op(i))) return false;
+    for (std::size_t i = first; i-- > 0;) {
+      if (opens(op(i))) return false;
+      if (closes(op(i))) return is_executed_with(i, first);
+    }
+    return false;
+  }
+
+  /// Whether a step has power flow whenever a later one has.
+  bool is_executed_with(std::size_t closing, std::size_t later) const {
+    if (facts_.flow.nodes[steps_[closing].op].powered) return !leads_past(closing, later);
+    for (std::size_t i = closing + 1; i < later; ++i) {
+      if (steps_[i].call != steps_[closing].call) continue;
+      const Op& between = op(i);
+      const std::string_view mnemonic = between.instruction->mnemonic;
+      const bool only_takes_power = mnemonic.starts_with('A') && mnemonic != "ALD";
+      if (between.is_contact && !only_takes_power) return false;
+      const Structure structure = between.instruction->structure;
+      if (structure != Structure::None && structure != Structure::Call && structure != Structure::Attach) return false;
+    }
+    return true;
+  }
+
+  /// Whether some way leads past the closing step: a label, to which a jump may come, or a way out of its routine.
+  bool leads_past(std::size_t closing, std::size_t later) const {
+    bool left = false;
+    for (std::size_t i = closing + 1; i <= later; ++i) {
+      if (steps_[i].call != steps_[closing].call) continue;
+      const Structure structure = op(i).instruction->structure;
+      if (structure == Structure::Label) return true;
+      left |= structure == Structure::SubroutineEnd;
+    }
+    for (std::size_t i = closing; left && i-- > 0;)
+      if (steps_[i].call == steps_[closing].call && op(i).instruction->effect == Effect::ConditionalEnd) return true;
+    return false;
+  }
+
+  const Facts& facts_;
+  const std::vector<PlacedOp>& steps_;
 };
 
 class RaceFinder {
@@ -134,8 +265,9 @@ class RaceFinder {
         calls_(calls),
         waiter_(waiter),
         accesses_(facts),
-        protection_(facts, calls),
-        first_scan_(ops_of_first_scan(facts.program)) {}
+        first_scan_(ops_of_first_scan(facts.program)),
+        steps_(OpsInOrder(facts, calls, accesses_, first_scan_).of(0)),
+        protection_(facts, steps_) {}
 
   std::vector<Race> all() {
     if (calls_.enabling.empty()) return {};
@@ -149,159 +281,271 @@ class RaceFinder {
   /// An access of an interrupt routine.
   struct Foreign {
     std::uint32_t op = 0;
-    MemoryAccess access;
+    Access access;
   };
 
   void with_interrupt(std::uint32_t routine) {
     interrupt_ = routine;
     foreign_.clear();
-    std::set<std::uint32_t> seen;
-    collect(routine, seen);
-    for (std::uint32_t i = 0; i < calls_.nodes.size(); ++i) {
-      if (!calls_.nodes[i].by_main) continue;
-      find_lost_updates(facts_.flow.routines[i]);
-      find_torn(facts_.flow.routines[i], Race::Kind::TornRead);
-      find_torn(facts_.flow.routines[i], Race::Kind::TornWrite);
+    const std::vector<bool> nothing(facts_.program.ops.size());
+    for (const PlacedOp& step : OpsInOrder(facts_, calls_, accesses_, nothing).of(routine))
+      for (const Access& access : step.accesses)
+        if (access.bits.count != 0 && !access.anywhere && is_shared(access.bits)) foreign_.push_back({step.op, access});
+    if (foreign_.empty()) return;
+    for (std::size_t step = 0; step < steps_.size() && !waiter_.asks_to_end(); ++step) {
+      if (is_unread(op(step))) continue;
+      for (const Access& access : steps_[step].accesses) {
+        if (access.bits.count == 0 || !is_shared(access.bits) || !writer_of(access.bits)) continue;
+        if (access.role == Role::In) follow(step, access);
+        if (access.role == Role::Out && !access.somewhere) keep(step, access);
+      }
     }
+    find_torn(Race::Kind::TornRead);
+    find_torn(Race::Kind::TornWrite);
   }
 
-  void collect(std::uint32_t routine, std::set<std::uint32_t>& seen) {
-    if (!seen.insert(routine).second) return;
-    for (std::uint32_t op = facts_.flow.routines[routine].first; op < facts_.flow.routines[routine].end; ++op)
-      for (const MemoryAccess& access : accesses_.of(op))
-        if (is_shared(as_named(access.bits))) foreign_.push_back({op, access});
-    for (const CallSite& site : calls_.nodes[routine].calls) collect(site.routine, seen);
-  }
+  const Op& op(std::size_t step) const { return facts_.program.ops[steps_[step].op]; }
 
-  void add(Race::Kind kind, const Bits& bits, std::uint32_t first, std::uint32_t last, std::uint32_t interrupt) {
-    if (protection_.covers(first, last) || first_scan_[last]) return;
-    const bool known = std::ranges::any_of(races_, [&](const Race& race) {
+  /// Whether a box or a coil has power flow in the first scan only.
+  bool is_of_first_scan(std::size_t step) const { return !op(step).is_contact && first_scan_[steps_[step].op]; }
+
+  struct Pair {
+    std::size_t first = 0, last = 0;
+  };
+
+  void add(Race::Kind kind, const Bits& bits, const Pair& steps, const Foreign& foreign, bool suspected) {
+    const std::uint32_t first = steps_[steps.first].op, last = steps_[steps.last].op;
+    if (is_of_first_scan(steps.first) || is_of_first_scan(steps.last)) return;
+    const auto& events = calls_.nodes[interrupt_].events;
+    const auto event =
+        std::ranges::find_if(events, [&](std::uint8_t each) { return !protection_.covers(steps.first, steps.last, each); });
+    if (event == events.end()) return;
+    const auto known = std::ranges::find_if(races_, [&](const Race& race) {
       return race.routine == interrupt_ && race.last == last && race.kind == kind && race.bits == as_named(bits);
     });
-    if (!known)
-      races_.push_back({kind, as_named(bits), first, last, interrupt, interrupt_, calls_.nodes[interrupt_].events.front()});
+    if (known == races_.end())
+      races_.push_back({kind, as_named(bits), first, last, foreign.op, interrupt_, *event, suspected});
+    else if (known->suspected && !suspected)
+      *known = {kind, as_named(bits), first, last, foreign.op, interrupt_, *event, suspected};
   }
 
-  // --- lost updates ---
-
-  /// What the interrupt writes of some bits that are more than one.
+  /// What the interrupt writes of some bits; where that is certain, if there is any of it.
   const Foreign* writer_of(const Bits& bits) const {
-    const auto found = std::ranges::find_if(
-        foreign_, [&](const Foreign& each) { return each.access.writes() && each.access.bits.overlaps(bits); });
-    return found == foreign_.end() ? nullptr : &*found;
+    const Foreign* found = nullptr;
+    for (const Foreign& each : foreign_) {
+      if (!each.access.writes() || !each.access.bits.overlaps(bits)) continue;
+      if (!each.access.somewhere) return &each;
+      if (!found) found = &each;
+    }
+    return found;
   }
 
-  void find_lost_updates(const Routine& routine) {
-    for (std::uint32_t op = routine.first; op < routine.end; ++op) {
-      if (waiter_.asks_to_end()) return;
-      if (is_unread(facts_.program.ops[op])) continue;
-      for (const MemoryAccess& access : accesses_.of(op))
-        if (access.role == Role::In && access.bits.count >= kBitsOfByte && is_shared(as_named(access.bits)) &&
-            writer_of(access.bits))
-          follow(routine, op, access.bits);
-    }
-  }
+  // --- what is written after a read ---
 
   static bool overlaps_any(const std::vector<Bits>& all, const Bits& bits) {
     return std::ranges::any_of(all, [&](const Bits& each) { return each.overlaps(bits); });
   }
 
-  bool begins_rung(const Op& op) const { return op.is_contact && op.instruction->rung.stack.change > 0; }
+  /// Whether a contact begins what the rung depends on, and nothing in front of it matters to it any more.
+  bool begins_rung(std::size_t step, int pushed) const {
+    const Op& now = op(step);
+    return now.is_contact && now.instruction->rung.stack.needs == 0 && now.instruction->rung.stack.change > 0 &&
+           pushed == 0 && (step == 0 || !op(step - 1).is_contact);
+  }
 
-  /// Follows what depends on a read of shared memory, until the routine writes that memory or nothing depends on it any
+  /// Follows what depends on a read of shared memory, until the program writes that memory or nothing depends on it any
   /// more.
-  void follow(const Routine& routine, std::uint32_t reader, const Bits& shared) {
-    const Op& first = facts_.program.ops[reader];
+  void follow(std::size_t reader, const Access& read) {
+    const Op& first = op(reader);
     bool decides = first.is_contact;  // whether the power flow of the rung depends on it
+    bool only_decides = decides;      // and nothing is worked out from its value
     std::vector<Bits> dependent;
     if (!decides) note_writes(reader, dependent);
-    const std::uint32_t end = std::min(routine.end, reader + kFarthest);
-    for (std::uint32_t op = reader + 1; op < end; ++op) {
-      const Op& now = facts_.program.ops[op];
+    bool kept = std::ranges::any_of(dependent, [](const Bits& bits) { return area_of(as_named(bits)) != Area::AC; });
+    int pushed = 0;  // LPS without their LPP
+    const std::size_t end = std::min(steps_.size(), reader + kFarthest);
+    for (std::size_t step = reader + 1; step < end; ++step) {
+      const Op& now = op(step);
       if (is_unread(now)) return;
-      if (now.is_contact && reads_any(op, dependent))
+      if (now.instruction->mnemonic == "LPS") ++pushed;
+      if (now.instruction->mnemonic == "LPP") pushed = std::max(0, pushed - 1);
+      if (now.is_contact && reads_any(step, dependent))
         decides = true;
-      else if (begins_rung(now))
+      else if (begins_rung(step, pushed))
         decides = false;
       if (now.is_contact) continue;
-      const bool depends = decides || reads_any(op, dependent);
-      if (depends && writes_back(reader, op, shared)) return;
-      if (rereads(op, shared)) return;  // the later read is the one that counts
-      if (!depends) forget_overwritten(op, dependent);
-      if (depends) note_writes(op, dependent);
-      if (!decides && dependent.empty()) return;
+      const bool uses = reads_any(step, dependent), depends = decides || uses;
+      only_decides &= !uses;
+      kept |= uses;
+      if (const Access* write = write_back(step, read)) {
+        const bool by_coil = now.instruction->effect == Effect::Coil;
+        if (depends) return found(Race::Kind::LostUpdate, read, *write, {reader, step}, only_decides && !by_coil);
+        if (kept && belong_together(reader, step)) return found(Race::Kind::Overwritten, read, *write, {reader, step}, true);
+      }
+      if (rereads(step, read.bits)) return;  // the later read is the one that counts
+      if (!depends) forget_overwritten(step, dependent);
+      if (depends) note_writes(step, dependent);
+      if (!decides && dependent.empty() && !kept) return;
     }
   }
 
-  bool reads_any(std::uint32_t op, const std::vector<Bits>& dependent) const {
-    return std::ranges::any_of(accesses_.of(op), [&](const MemoryAccess& access) {
-      return access.reads() && overlaps_any(dependent, access.bits);
+  bool reads_any(std::size_t step, const std::vector<Bits>& dependent) const {
+    return std::ranges::any_of(steps_[step].accesses, [&](const Access& access) {
+      return access.reads() && access.bits.count != 0 && overlaps_any(dependent, access.bits);
     });
   }
 
   /// Whether a box reads and writes it again in one go, or reads it for what follows.
-  bool rereads(std::uint32_t op, const Bits& shared) const {
-    return std::ranges::any_of(accesses_.of(op), [&](const MemoryAccess& access) {
-      return access.role == Role::In && access.operand != kNoOperand && access.bits == shared;
+  bool rereads(std::size_t step, const Bits& shared) const {
+    return std::ranges::any_of(steps_[step].accesses, [&](const Access& access) {
+      return access.role == Role::In && access.of_operand && access.bits == shared;
     });
   }
 
-  bool writes_back(std::uint32_t reader, std::uint32_t op, const Bits& shared) {
-    for (const MemoryAccess& access : accesses_.of(op)) {
-      const Bits both = overlap_of(access.bits, shared);
-      if (access.role != Role::Out || both.count < kBitsOfByte) continue;
-      if (const Foreign* writer = writer_of(both)) {
-        add(Race::Kind::LostUpdate, both, reader, op, writer->op);
-        return true;
-      }
+  /// What a step writes of memory that was read. Of bits that are set or reset nothing depends on their old value.
+  const Access* write_back(std::size_t step, const Access& read) const {
+    for (const Access& access : steps_[step].accesses) {
+      const Bits both = overlap_of(access.bits, read.bits);
+      if (access.role != Role::Out || both.count == 0) continue;
+      if (both.count < kBitsOfByte && (read.bits.count != 1 || op(step).instruction->effect != Effect::Coil)) continue;
+      if (writer_of(both)) return &access;
     }
-    return false;
+    return nullptr;
   }
 
-  void note_writes(std::uint32_t op, std::vector<Bits>& dependent) const {
-    for (const MemoryAccess& access : accesses_.of(op))
-      if (access.writes() && access.operand != kNoOperand && !overlaps_whole(dependent, access.bits))
+  /// If a pointer says where it is, each word that the interrupt writes may be meant.
+  void found(Race::Kind kind, const Access& read, const Access& write, const Pair& steps, bool suspected) {
+    const Bits both = overlap_of(write.bits, read.bits);
+    if (!read.somewhere && !write.somewhere && both.count <= kBitsOfDouble) {
+      const Foreign& writer = *writer_of(both);
+      return add(kind, both, steps, writer, suspected || writer.access.somewhere);
+    }
+    const bool sure = read.certain && write.certain;
+    for (const Foreign& each : foreign_)
+      if (each.access.writes() && each.access.bits.overlaps(both))
+        add(kind, overlap_of(both, each.access.bits), steps, each, suspected || !sure || each.access.somewhere);
+  }
+
+  /// Whether what is written after a read is meant for what was read: in the same network, under the same condition, or
+  /// always.
+  bool belong_together(std::size_t reader, std::size_t writer) const {
+    const auto& nodes = facts_.flow.nodes;
+    const std::uint32_t first = steps_[reader].op, last = steps_[writer].op;
+    if (nodes[last].powered || (nodes[first].network == nodes[last].network)) return true;
+    return condition_of(reader) == condition_of(writer);
+  }
+
+  /// The contacts in front of a step in its rung, as numbers of what they are.
+  std::vector<std::tuple<const Instruction*, std::uint32_t, std::uint8_t, std::uint32_t>> condition_of(
+      std::size_t step) const {
+    std::vector<std::tuple<const Instruction*, std::uint32_t, std::uint8_t, std::uint32_t>> contacts;
+    while (step > 0 && !op(step).is_contact) --step;
+    for (; op(step).is_contact; --step) {
+      const Op& now = op(step);
+      contacts.emplace_back(now.instruction, now[0].at, now[0].bit, now[1].at);
+      if (step == 0) break;
+    }
+    return contacts;
+  }
+
+  void note_writes(std::size_t step, std::vector<Bits>& dependent) const {
+    for (const Access& access : steps_[step].accesses)
+      if (access.writes() && access.of_operand && access.bits.count != 0 && !overlaps_whole(dependent, access.bits))
         dependent.push_back(access.bits);
   }
   static bool overlaps_whole(const std::vector<Bits>& all, const Bits& bits) {
     return std::ranges::any_of(all, [&](const Bits& each) { return each.contains(bits); });
   }
 
-  void forget_overwritten(std::uint32_t op, std::vector<Bits>& dependent) const {
-    for (const MemoryAccess& access : accesses_.of(op))
-      if (access.role == Role::Out && access.certainty == Certainty::Must)
+  void forget_overwritten(std::size_t step, std::vector<Bits>& dependent) const {
+    for (const Access& access : steps_[step].accesses)
+      if (access.role == Role::Out && access.certain)
         std::erase_if(dependent, [&](const Bits& bits) { return access.bits.contains(bits); });
+  }
+
+  // --- what is read after a write ---
+
+  /// Memory that the main program always writes before it reads it, and the interrupt writes as well: both keep something
+  /// in it for a while.
+  void keep(std::size_t writer, const Access& write) {
+    if (write.bits.count < kBitsOfByte || !write.of_operand) return;
+    const auto foreign = std::ranges::find_if(foreign_, [&](const Foreign& each) {
+      return each.access.role == Role::Out && each.access.of_operand && each.access.bits.overlaps(write.bits);
+    });
+    if (foreign == foreign_.end()) return;
+    const bool constant = writes_constant(writer);
+    const std::size_t end = std::min(steps_.size(), writer + kFarthest);
+    std::optional<std::size_t> changed;
+    for (std::size_t step = writer + 1; step < end; ++step) {
+      if (is_unread(op(step))) return;
+      for (const Access& access : steps_[step].accesses) {
+        if (access.bits.count == 0 || !access.bits.overlaps(write.bits)) continue;
+        if (access.role == Role::Out && access.certain) return;
+        if (access.role == Role::InOut) changed = changed.value_or(step);
+        if (access.role != Role::In || op(step).is_contact) continue;
+        const bool as_pointer = leads(step, write.bits);
+        if (constant && !as_pointer && !changed) return;
+        if (!is_read_first(write.bits)) add(Race::Kind::Scratch, write.bits, {writer, step}, *foreign, true);
+        return;
+      }
+    }
+  }
+
+  bool leads(std::size_t step, const Bits& pointer) const {
+    return std::ranges::any_of(steps_[step].accesses, [&](const Access& access) {
+      return access.pointer != 0 && access.pointer * kBitsOfByte == pointer.first;
+    });
+  }
+
+  bool writes_constant(std::size_t step) const {
+    const auto box = value_box_of(*op(step).instruction);
+    return box && box->carries() && box->from && !op(step)[*box->from].pointer &&
+           op(step)[*box->from].at >= image::kConstants;
+  }
+
+  /// Whether the main program reads some memory in front of all that it writes there.
+  bool is_read_first(const Bits& bits) const {
+    for (std::size_t step = 0; step < steps_.size(); ++step)
+      for (const Access& access : steps_[step].accesses) {
+        if (!access.bits.overlaps(bits) || access.somewhere || is_of_first_scan(step)) continue;
+        return access.reads();
+      }
+    return false;
   }
 
   // --- parts ---
 
-  /// Two ops of the routine, each of which accesses another part of what an op of the interrupt accesses as a whole.
-  void find_torn(const Routine& routine, Race::Kind kind) {
+  /// Two steps of a routine, each of which accesses another part of what an op of the interrupt accesses as a whole.
+  void find_torn(Race::Kind kind) {
     const bool reads = kind == Race::Kind::TornRead;
     for (const Foreign& foreign : foreign_) {
       if (waiter_.asks_to_end()) return;
       const Bits& whole = foreign.access.bits;
       const bool meant = reads ? foreign.access.writes() : foreign.access.reads();
-      if (!meant || whole.count < kBitsOfWord || whole.count > kBitsOfDouble) continue;
-      std::optional<std::pair<std::uint32_t, Bits>> earlier;
-      for (std::uint32_t op = routine.first; op < routine.end; ++op) {
-        const auto part = part_of(op, whole, reads);
-        if (!part) continue;
-        if (earlier && !earlier->second.overlaps(*part)) {
-          add(kind, whole, earlier->first, op, foreign.op);
-          break;
+      if (!meant || foreign.access.somewhere || whole.count < kBitsOfWord || whole.count > kBitsOfDouble) continue;
+      std::map<std::uint32_t, std::pair<std::size_t, Bits>> earlier;  // by execution of a routine
+      std::set<std::uint32_t> done;
+      for (std::size_t step = 0; step < steps_.size(); ++step) {
+        const auto part = part_of(step, whole, reads);
+        const std::uint32_t call = steps_[step].call;
+        if (!part || done.contains(call)) continue;
+        const auto before = earlier.find(call);
+        if (before != earlier.end() && !before->second.second.overlaps(*part)) {
+          add(kind, whole, {before->second.first, step}, foreign, false);
+          done.insert(call);
         }
-        earlier = {op, *part};
+        earlier[call] = {step, *part};
       }
     }
   }
 
-  std::optional<Bits> part_of(std::uint32_t op, const Bits& whole, bool reads) const {
-    if (first_scan_[op]) return {};
-    for (const MemoryAccess& access : accesses_.of(op)) {
+  std::optional<Bits> part_of(std::size_t step, const Bits& whole, bool reads) const {
+    if (is_of_first_scan(step)) return {};
+    for (const Access& access : steps_[step].accesses) {
       const bool meant = reads ? access.role == Role::In : access.role == Role::Out;
       const Bits both = overlap_of(access.bits, whole);
-      if (meant && access.operand != kNoOperand && both.count >= kBitsOfByte && both.count < whole.count) return both;
+      if (meant && access.of_operand && !access.somewhere && both.count >= kBitsOfByte && both.count < whole.count)
+        return both;
     }
     return {};
   }
@@ -310,8 +554,9 @@ class RaceFinder {
   const Calls& calls_;
   const Waiter& waiter_;
   Accesses accesses_;
-  Protection protection_;
   std::vector<bool> first_scan_;
+  std::vector<PlacedOp> steps_;  // of the main program
+  Protection protection_;
   std::uint32_t interrupt_ = 0;
   std::vector<Foreign> foreign_{};
   std::vector<Race> races_{};

@@ -2,7 +2,7 @@
 """Plants races in generated programs and counts which of them `s7200 inspect PROGRAM races` finds: run.py S7200 [COUNT [SEED]]
 
 Each program has one planted race between its main program and an interrupt routine, among networks that share words with
-interrupts in ways that are none: read and written in one instruction, or under DISI. Found is a race if both its lines are
+interrupts in ways that are none: read and written in one instruction, under DISI, or so that it comes to the same. Found is a race if both its lines are
 named. Everything else that is named is a false alarm. The same programs without the race must have no finding.
 """
 import json
@@ -89,7 +89,48 @@ def whole(p):
     p.main += [p.condition(), f"MOVD VD{double}, VD{p.memory()}"]
 
 
-HARMLESS = [filler, filler, single, protected, protected_call, accumulators, whole]
+def handshake(p):
+    bit = f"V{p.memory()}.0"
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"S {bit}, 1"]
+    p.main += [f"LD {bit}", f"R {bit}, 1", f"INCW VW{p.memory()}"]
+
+
+def detached(p):
+    word, routine = p.memory(), p.chance.randrange(2)
+    p.interrupts[routine] += ["LD SM0.0", f"INCW VW{word}"]
+    p.main += ["LD SM0.0", f"DTCH {10 + routine}", f"MOVW VW{word}, AC0", "+I 3, AC0", f"MOVW AC0, VW{word}", f"ATCH {routine}, {10 + routine}"]
+
+
+def threshold(p):
+    """What comes between the two is lost as well if it comes before."""
+    word = p.memory()
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"INCW VW{word}"]
+    p.main += [f"LDW>= VW{word}, {p.chance.randrange(1, 100)}", f"MOVW 0, VW{word}"]
+
+
+def shown_and_reset(p):
+    word = p.memory()
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"INCW VW{word}"]
+    p.main += ["LD SM0.0", f"MOVW VW{word}, VW{p.memory()}", "LD I1.1", f"MOVW 0, VW{word}"]
+
+
+def mailbox(p):
+    word = p.memory()
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"MOVW 1, VW{word}"]
+    p.main += ["LD I1.2", f"MOVW 0, VW{word}", f"LDW= VW{word}, 1", "= Q1.1"]
+
+
+def pointer_elsewhere(p):
+    first, index = p.memory(), p.memory()
+    table = p.memory()
+    p.memory()
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"INCW VW{first}"]
+    p.main += ["LD SM0.0", f"MOVD &VB{table}, AC1", f"FOR VW{index}, 1, 5", "LD SM0.0", "MOVW *AC1, AC0", "+I 1, AC0", "MOVW AC0, *AC1",
+               "+D 2, AC1", "NEXT"]
+
+
+HARMLESS = [filler, filler, single, protected, protected_call, accumulators, whole, handshake, detached, threshold, shown_and_reset, mailbox,
+            pointer_elsewhere]
 
 
 # --- races ---
@@ -174,8 +215,52 @@ def torn_write(p):
     return ["LD SM0.0", f"@MOVW VW{new}, VW{double}", *between(p), f"@MOVW VW{new + 2}, VW{double + 2}"]
 
 
+def self_holding(p):
+    bit = f"V{p.memory()}.0"
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"{p.chance.choice('SR')} {bit}, 1"]
+    return p.chance.choice([[f"@LD {bit}", "AN I1.0", f"@= {bit}"], ["LD I1.1", f"@O {bit}", "AN I1.0", f"@= {bit}"]])
+
+
+def read_and_clear(p):
+    word, copy = p.memory(), p.memory()
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"INCW VW{word}"]
+    return [p.condition(), p.chance.choice([f"@MOVW VW{word}, VW{copy}", f"@+I VW{word}, VW{copy}"]), *between(p), f"@MOVW 0, VW{word}"]
+
+
+def pointer_in_loop(p):
+    table = p.memory()
+    p.memory()
+    index = p.memory()
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"INCW VW{table + 2 * p.chance.randrange(5)}"]
+    return ["LD SM0.0", f"MOVD &VB{table}, AC1", f"FOR VW{index}, 1, 5", "LD SM0.0", "@MOVW *AC1, AC0", "+I 1, AC0", "@MOVW AC0, *AC1", "+D 2, AC1",
+            "NEXT"]
+
+
+def two_subroutines(p):
+    word = p.memory()
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"INCW VW{word}"]
+    reads = p.subroutine(["LD SM0.0", f"@MOVW VW{word}, AC0"])
+    writes = p.subroutine(["LD SM0.0", "+I 2, AC0", f"@MOVW AC0, VW{word}"])
+    return ["LD SM0.0", f"CALL {reads}", f"CALL {writes}"]
+
+
+def scratch(p):
+    word, new, to = p.memory(), p.memory(), p.memory()
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"MOVW {p.chance.randrange(1000, 2000)}, VW{word}"]
+    return [p.condition(), f"@MOVW VW{new}, VW{word}", f"+I 2, VW{word}", *between(p), f"@MOVW VW{word}, VW{to}"]
+
+
+def count_of_table(p):
+    table = p.memory()
+    p.memory()
+    p.main += ["LD SM0.1", f"MOVW 3, VW{table}"]
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"ATT VW{p.memory()}, VW{table}"]
+    return ["LD SM0.0", f"@MOVW VW{table + 2}, AC0", "-I 1, AC0", f"@MOVW AC0, VW{table + 2}"]
+
+
 RACES = [accumulator, through_memory, compare_and_reset, pointer_of_main, pointer_of_interrupt, pointer_in_memory, bytes_of_mask,
-         in_subroutine, interrupt_in_subroutine, networks_apart, torn_read, torn_write]
+         in_subroutine, interrupt_in_subroutine, networks_apart, torn_read, torn_write, self_holding, read_and_clear, pointer_in_loop, two_subroutines,
+         scratch, count_of_table]
 
 
 def program(seed, race):

@@ -8,6 +8,7 @@
 
 #include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/base/split_mix.hpp"
+#include "interpreter/base/text/joined.hpp"
 #include "interpreter/cpu/cpu.hpp"
 #include "interpreter/cpu/interrupts.hpp"
 #include "interpreter/program/loading/unread.hpp"
@@ -19,9 +20,12 @@ constexpr EventOwner kOwner{1};
 constexpr std::uint64_t kFirstScans = 3;
 constexpr Time kLongestStart = 10 * kSecond;
 constexpr std::size_t kMostSteps = 20'000;                    ///< instructions of a scan
+constexpr std::size_t kMostOfInterrupt = 100'000;             ///< instructions of the rest of a scan with the interrupt
 constexpr std::size_t kMostInstants = 200;                    ///< between two accesses
 constexpr std::uint32_t kAttempts = 96;                       ///< each from other memory
 constexpr std::uint32_t kWithInputs = 8, kWithContacts = 24;  ///< attempts from which on these are changed, too
+constexpr std::size_t kMostWork = 4'000'000;                  ///< instructions of all attempts together
+constexpr std::size_t kMostPlaces = 4;                        ///< that are named
 
 /// A port with nobody on the line.
 class QuietPort final : public SerialPort {
@@ -32,10 +36,9 @@ class QuietPort final : public SerialPort {
   void send_break(int, Time) override {}
 };
 
-/// What the interrupt is: where it comes, in instructions from the begin of the scan.
+/// What the interrupt is.
 struct Interrupt {
   std::uint8_t event = 0, routine = 0, byte = 0;
-  std::size_t at = 0;
 };
 
 class Machine {
@@ -58,31 +61,40 @@ class Machine {
     return cpu_.state();
   }
 
-  /// Each instruction of a scan: its op, and whether it does anything.
+  /// Each instruction of a scan: its op, whether it does anything, and whether the interrupt would come in front of it.
   struct Step {
     std::uint32_t op = 0;
-    bool powered = false;
+    bool powered = false, open = false;
   };
-  std::vector<Step> steps(const State& from) {
+  std::vector<Step> steps(const State& from, const Interrupt& interrupt) {
     begin(from);
     std::vector<Step> all;
     while (in_program() && all.size() < kMostSteps) {
-      const Op& op = cpu_.program().ops[cpu_.state().pc];
-      all.push_back({cpu_.state().pc, op.power_mask == 0 || cpu_.state().stack.top()});
+      const State& s = cpu_.state();
+      const Op& op = cpu_.program().ops[s.pc];
+      const bool open = s.interrupts_enabled && s.attached[interrupt.event] == interrupt.routine;
+      all.push_back({s.pc, op.power_mask == 0 || s.stack.top(), open});
       step();
     }
     return all;
   }
 
-  /// Memory after the scan, with an interrupt.
-  State ended(const State& from, const Interrupt& interrupt) {
+  /// The state some instructions later.
+  State after(const State& from, std::size_t instructions) {
     begin(from);
-    for (std::size_t i = 0; i < interrupt.at && in_program(); ++i) step();
-    cpu_.core().s.attached[interrupt.event] = interrupt.routine;
-    interrupts::occurred(cpu_.core(), interrupt.event, cpu_.time(), interrupt.byte);
-    for (std::size_t i = 0; i < kMostSteps && (in_program() || cpu_.state().in_interrupt); ++i) step();
+    for (std::size_t i = 0; i < instructions && in_program(); ++i) step();
     return cpu_.state();
   }
+
+  /// The state after the scan, with the interrupt in front of the next instruction.
+  State ended(const State& from, const Interrupt& interrupt) {
+    begin(from);
+    interrupts::occurred(cpu_.core(), interrupt.event, cpu_.time(), interrupt.byte);
+    for (std::size_t i = 0; i < kMostOfInterrupt && (in_program() || cpu_.state().in_interrupt); ++i) step();
+    return cpu_.state();
+  }
+
+  bool has_worked_enough() const { return work_ > kMostWork; }
 
  private:
   bool in_program() const {
@@ -98,6 +110,7 @@ class Machine {
 
   /// An instruction, or up to `time` of the system's part of the scan.
   void step(Time time = 1) {
+    ++work_;
     cpu_.run(cpu_.time() + time);
     while (queue_.next() <= cpu_.time()) queue_.pop();
   }
@@ -111,21 +124,27 @@ class Machine {
   EventQueue queue_;
   QuietPort port_;
   Cpu cpu_;
+  std::size_t work_ = 0;
 };
 
 class Attempt {
  public:
-  Attempt(const Inspection& inspection, const Race& race, const State& started, std::uint32_t number)
+  Attempt(const Inspection& inspection, const Race& race, const Interrupt& interrupt, const State& started,
+          std::uint32_t number)
       : inspection_(inspection), race_(race), state_(started), number_(number), chance_(split_mix(number)) {
     State& s = state_;
     s.interrupts_enabled = true;
+    s.attached[interrupt.event] = interrupt.routine;
     s.waiting = 0;
     s.queue = {};
     s.watchdog = kNever;
     if (number_ > 0) set(race_.bits);
     if (number_ >= kWithInputs)
       for (std::uint32_t i = 0; i < image::kPointBytes; ++i) s.image[image::kI + i] = byte();
+    if (number_ >= kWithInputs)
+      for (std::size_t i = 0; i < s.analog_terminals.size(); ++i) s.image[image::kAI + i] = s.analog_terminals[i] = byte();
     if (number_ >= kWithContacts) set_contacts();
+    if (number_ >= kWithContacts) set_sources(race_.first), set_sources(race_.last);
   }
 
   const State& state() const { return state_; }
@@ -137,6 +156,7 @@ class Attempt {
   }
 
   static std::string value_in(const State& state, const Bits& bits) {
+    if (bits.count == 1) return state.image[bits.first / 8] >> bits.first % 8 & 1 ? "1" : "0";
     std::string text = "16#";
     const std::uint64_t bytes = std::max<std::uint64_t>(1, bits.count / 8);
     for (std::uint64_t i = 0; i < bytes && i < 8; ++i) text += fmt::format("{:02X}", state.image[bits.first / 8 + i]);
@@ -146,13 +166,21 @@ class Attempt {
  private:
   std::uint8_t byte() { return static_cast<std::uint8_t>(draw_split_mix(chance_)); }
 
-  /// Any value, one about to carry from its low half to its high half, or one about what it is compared with.
+  /// Any value, one about to carry from some of its bytes to the next, one about what it is compared with, or a small one.
   void set(const Bits& bits) {
+    if (bits.count == 1) {
+      const auto mask = static_cast<std::uint8_t>(1u << bits.first % 8);
+      std::uint8_t& cell = state_.image[bits.first / 8];
+      cell = static_cast<std::uint8_t>(number_ % 2 == 1 ? cell | mask : cell & ~mask);
+      return;
+    }
     const std::uint64_t first = bits.first / 8, count = std::clamp<std::uint64_t>(bits.count / 8, 1, 4);
     const auto compared = constant_of(race_.first);
-    const std::uint64_t carries = (std::uint64_t{1} << (4 * count)) - 1, any = draw_split_mix(chance_);
-    const std::uint64_t value = number_ % 3 == 1   ? carries
-                                : number_ % 3 == 2 ? compared.value_or(any) + number_ / 3 % 3 - 1
+    const std::uint64_t low = count == 1 ? 4 : 8 * (1 + (count / 2 - 1 + number_ / 4) % (count - 1));
+    const std::uint64_t carries = (std::uint64_t{1} << low) - 1, any = draw_split_mix(chance_);
+    const std::uint64_t value = number_ % 4 == 1   ? carries
+                                : number_ % 4 == 2 ? compared.value_or(any) + number_ / 4 % 3 - 1
+                                : number_ % 4 == 3 ? any % 16
                                                    : any;
     for (std::uint64_t i = 0; i < count; ++i)
       state_.image[first + i] = static_cast<std::uint8_t>(value >> (8 * (count - 1 - i)));
@@ -172,18 +200,28 @@ class Attempt {
   }
 
   void set_contacts() {
-    const Program& program = *inspection_.program;
-    for (std::uint32_t op = 0; op < program.ops.size(); ++op) {
-      if (!program.ops[op].is_contact) continue;
-      for (const MemoryAccess& access : inspection_.facts.effects[op]) {
-        const auto first = static_cast<std::uint32_t>(access.bits.first / 8);
-        const bool memory = first >= image::kV || (first >= image::kM && first < image::kSM);
-        if (access.by_pointer || !memory || access.bits.count > 32 || access.bits.overlaps(race_.bits)) continue;
-        const std::uint8_t mask = access.bits.count == 1 ? static_cast<std::uint8_t>(1u << access.bits.first % 8) : 0xFF;
-        for (std::uint64_t i = 0; i < std::max<std::uint64_t>(1, access.bits.count / 8); ++i) {
-          std::uint8_t& cell = state_.image[first + i];
-          cell = static_cast<std::uint8_t>((cell & ~mask) | (byte() & mask));
-        }
+    for (std::uint32_t op = 0; op < inspection_.program->ops.size(); ++op)
+      if (inspection_.program->ops[op].is_contact) set_sources(op);
+  }
+
+  /// What an op looks at: any values, or small ones.
+  void set_sources(std::uint32_t op) {
+    constexpr Bits kClockBits{image::kSM * 8u + 4, 3};  // SM0.4, SM0.5, SM0.6
+    const bool small = number_ % 2 == 1;
+    for (const MemoryAccess& access : inspection_.facts.effects[op]) {
+      const auto first = static_cast<std::uint32_t>(access.bits.first / 8);
+      const bool memory =
+          first >= image::kEdges || (first >= image::kM && first < image::kSM) || kClockBits.contains(access.bits);
+      const bool accumulator = first >= image::kAC && first < image::kTBits;
+      if (access.by_pointer || accumulator || !memory || !access.reads() || access.bits.count > 64) continue;
+      const std::uint8_t mask = access.bits.count == 1 ? static_cast<std::uint8_t>(1u << access.bits.first % 8) : 0xFF;
+      const std::uint64_t bytes = std::max<std::uint64_t>(1, access.bits.count / 8);
+      for (std::uint64_t i = 0; i < bytes; ++i) {
+        if (race_.bits.overlaps({(first + i) * 8, mask == 0xFF ? 8u : 1u})) continue;
+        const bool high = small && access.bits.count <= 32 && i + 1 < bytes;
+        const std::uint8_t value = high ? std::uint8_t{0} : small && access.bits.count != 1 ? byte() & 3 : byte();
+        std::uint8_t& cell = state_.image[first + i];
+        cell = static_cast<std::uint8_t>((cell & ~mask) | (value & mask));
       }
     }
   }
@@ -198,63 +236,135 @@ class Attempt {
 /// Memory that programs keep: outputs, M, S, V.
 bool is_kept(std::uint32_t place) {
   return (place >= image::kQ && place < image::kSM) || (place >= image::kS && place < image::kAI) ||
-         (place >= image::kC && place < image::kHC) || (place >= image::kV && place < image::kL);
+         (place >= image::kAQ && place < image::kAQ + 64) || (place >= image::kC && place < image::kHC) ||
+         (place >= image::kV && place < image::kL);
 }
 
-/// The memory that one run leaves otherwise than both others: the shared word if it is among it.
-std::optional<Bits> lost(const State& run, const State& before, const State& behind, const Bits& shared) {
+/// A run with the interrupt at some instant, and those with it in front of both accesses and behind them.
+struct Outcomes {
+  const State &between, &before, &behind;
+};
+
+/// The bytes that the run leaves otherwise than both others; if there are none, and it is like neither of them, those that
+/// tell it from either. Timers run on by themselves: they count only if they are what is shared.
+std::vector<std::uint32_t> bytes_lost(const Outcomes& run, const Bits& shared) {
+  std::vector<std::uint32_t> from_both, from_either;
   bool from_before = false, from_behind = false;
-  std::optional<std::uint32_t> other;
   for (std::uint32_t place = 0; place < image::kL; ++place) {
-    if (!is_kept(place)) continue;
-    const bool as_before = run.image[place] == before.image[place], as_behind = run.image[place] == behind.image[place];
+    if (!is_kept(place) && !Bits{place * 8u, 8}.overlaps(shared)) continue;
+    const std::uint8_t value = run.between.image[place];
+    const bool as_before = value == run.before.image[place], as_behind = value == run.behind.image[place];
     from_before |= !as_before;
     from_behind |= !as_behind;
-    if (!as_before && !as_behind && Bits{place * 8u, 8}.overlaps(shared)) return shared;
-    if (!other && (!as_before || !as_behind)) other = place;
+    if (!as_before && !as_behind) from_both.push_back(place);
+    if (!as_before || !as_behind) from_either.push_back(place);
   }
   if (!from_before || !from_behind) return {};
-  return Bits{*other * 8u, 8};
+  return from_both.empty() ? from_either : from_both;
 }
+
+/// What the program names that a byte is part of: what is shared, or the widest that an instruction accesses.
+Bits named_around(const Inspection& inspection, std::uint32_t byte, const Bits& shared) {
+  const Bits bits{byte * 8u, 8};
+  if (shared.overlaps(bits) && shared.count <= 32) return shared;
+  Bits widest = bits;
+  for (const auto& effects : inspection.facts.effects)
+    for (const MemoryAccess& access : effects)
+      if (access.bits.count <= 32 && access.bits.contains(bits) && access.bits.count > widest.count) widest = access.bits;
+  return widest;
+}
+
+/// The memory that some bytes are part of, at most kMostPlaces.
+std::vector<Bits> places_of(const Inspection& inspection, const std::vector<std::uint32_t>& bytes, const Bits& shared) {
+  std::vector<Bits> all;
+  for (const std::uint32_t byte : bytes) {
+    if (std::ranges::any_of(all, [byte](const Bits& each) { return each.overlaps({byte * 8u, 8}); })) continue;
+    const Bits place = named_around(inspection, byte, shared);
+    const bool goes_on = !all.empty() && all.back().end() == place.first && all.back().count + place.count <= 32 &&
+                         all.back().count == place.count && place.count >= 8;
+    if (goes_on)
+      all.back().count += place.count;
+    else if (all.size() < kMostPlaces)
+      all.push_back(place);
+  }
+  return all;
+}
+
+class Search {
+ public:
+  Search(const Inspection& inspection, const Race& race)
+      : inspection_(inspection),
+        race_(race),
+        machine_(inspection.program),
+        interrupt_{race.event, inspection.facts.flow.routines[race.routine].number, 0x55} {}
+
+  std::optional<LostWord> found() {
+    const auto started = machine_.started();
+    if (!started) return {};
+    for (std::uint32_t number = 0; number < kAttempts && !is_over(); ++number) {
+      const Attempt attempt(inspection_, race_, interrupt_, *started, number);
+      if (auto lost = in_scan(attempt)) return lost;
+    }
+    return {};
+  }
+
+ private:
+  bool is_over() const { return machine_.has_worked_enough() || inspection_.waiter.asks_to_end(); }
+
+  /// Each time that the scan comes to the two accesses, in loops too.
+  std::optional<LostWord> in_scan(const Attempt& attempt) {
+    const auto steps = machine_.steps(attempt.state(), interrupt_);
+    for (std::size_t first = 0; first < steps.size() && !is_over(); ++first) {
+      if (!executes(steps[first], race_.first)) continue;
+      std::size_t last = first + 1;
+      while (last < steps.size() && !executes(steps[last], race_.last) && last - first <= kMostInstants) ++last;
+      if (last == steps.size() || last - first > kMostInstants) continue;
+      if (auto lost = in_between(attempt, steps, first, last)) return lost;
+    }
+    return {};
+  }
+
+  /// A label or the head of a routine takes no time: the next instruction is executed with it.
+  bool executes(const Machine::Step& step, std::uint32_t op) const {
+    return step.powered && (step.op == op || (step.op + 1 == op && inspection_.program->ops[step.op].cost == 0));
+  }
+
+  std::optional<LostWord> in_between(const Attempt& attempt, const std::vector<Machine::Step>& steps, std::size_t first,
+                                     std::size_t last) {
+    std::size_t in_front = first, behind_both = last + 1;
+    while (in_front > 0 && !steps[in_front].open) --in_front;
+    while (behind_both < steps.size() && !steps[behind_both].open) ++behind_both;
+    State now = machine_.after(attempt.state(), in_front);
+    const State before = machine_.ended(now, interrupt_);
+    const State behind = machine_.ended(machine_.after(now, behind_both - in_front), interrupt_);
+    now = machine_.after(now, first - in_front);
+    for (std::size_t at = first + 1; at <= last && !is_over(); ++at) {
+      now = machine_.after(now, 1);
+      if (!steps[at].open) continue;
+      const State ended = machine_.ended(now, interrupt_);
+      const auto bytes = bytes_lost({ended, before, behind}, race_.bits);
+      if (bytes.empty()) continue;
+      const auto places = places_of(inspection_, bytes, race_.bits);
+      const auto values = [&places](const State& state) {
+        return stl::joined(places, [&](const Bits& each) { return Attempt::value_in(state, each); });
+      };
+      return LostWord{attempt.situation(), steps[at - 1].op, stl::joined(places, memory_text),
+                      values(ended),       values(before),   values(behind)};
+    }
+    return {};
+  }
+
+  const Inspection& inspection_;
+  const Race& race_;
+  Machine machine_;
+  Interrupt interrupt_;
+};
 
 }  // namespace
 
 std::optional<LostWord> worst_instant(const Inspection& inspection, const Race& race) {
-  if (has_unread(*inspection.program)) return {};
-  Machine machine(inspection.program);
-  const auto started = machine.started();
-  if (!started) return {};
-  Interrupt interrupt{race.event, inspection.facts.flow.routines[race.routine].number, 0x55, 0};
-  for (std::uint32_t number = 0; number < kAttempts && !inspection.waiter.asks_to_end(); ++number) {
-    const Attempt attempt(inspection, race, *started, number);
-    const auto steps = machine.steps(attempt.state());
-    // A label or the head of a routine takes no time: the next instruction is executed with it.
-    const auto is = [&](std::uint32_t op) {
-      return [op, &ops = inspection.program->ops](const Machine::Step& step) {
-        return step.powered && (step.op == op || (step.op + 1 == op && ops[step.op].cost == 0));
-      };
-    };
-    const auto first = std::ranges::find_if(steps, is(race.first));
-    const auto last = std::find_if(first, steps.end(), is(race.last));
-    if (last == steps.end() || last - first > static_cast<std::ptrdiff_t>(kMostInstants)) continue;
-    const auto run = [&](auto step) {
-      interrupt.at = static_cast<std::size_t>(step - steps.begin());
-      return machine.ended(attempt.state(), interrupt);
-    };
-    const State before = run(first), behind = run(std::next(last));
-    for (auto step = std::next(first); step <= last; ++step) {
-      const State ended = run(step);
-      const auto place = lost(ended, before, behind, race.bits);
-      if (!place) continue;
-      return LostWord{attempt.situation(),
-                      std::prev(step)->op,
-                      memory_text(*place),
-                      Attempt::value_in(ended, *place),
-                      Attempt::value_in(before, *place),
-                      Attempt::value_in(behind, *place)};
-    }
-  }
-  return {};
+  if (inspection.has_errors || has_unread(*inspection.program)) return {};
+  return Search(inspection, race).found();
 }
 
 }  // namespace s7200::tools

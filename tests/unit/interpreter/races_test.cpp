@@ -10,7 +10,7 @@
 namespace s7200::test::races_test {
 namespace {
 
-/// `KIND MEMORY FIRST-LAST`, with ops of the main program counted from the one after ENI.
+/// `KIND MEMORY FIRST-LAST`, with `?` if only a run can tell, with ops of the main program counted from the one after ENI.
 std::string races(std::string_view main, std::string_view interrupt, std::string_view subroutines = "") {
   const auto program = program_of(
       fmt::format("LD SM0.1\nATCH 0, 10\nENI\n{}MEND\n{}INT 0\n{}RETI\n", main, subroutines, interrupt), *find_cpu("224"));
@@ -18,9 +18,9 @@ std::string races(std::string_view main, std::string_view interrupt, std::string
   return stl::joined(
       find_races(facts, calls_of(*program, facts.flow)),
       [](const Race& race) {
-        constexpr std::array kKinds{"lost", "torn read", "torn write"};
-        return fmt::format("{} {} {}-{}", kKinds[static_cast<std::size_t>(race.kind)], memory_text(race.bits),
-                           race.first - 3, race.last - 3);
+        constexpr std::array kKinds{"lost", "overwritten", "scratch", "torn read", "torn write"};
+        return fmt::format("{}{} {} {}-{}", kKinds[static_cast<std::size_t>(race.kind)], race.suspected ? "?" : "",
+                           memory_text(race.bits), race.first - 3, race.last - 3);
       },
       "; ");
 }
@@ -30,7 +30,7 @@ constexpr std::string_view kCounts = "LD SM0.0\nINCW VW10\n";
 TEST(Races, AWordThatIsReadAndWrittenBackLater) {
   EXPECT_EQ(races("LD I0.0\nMOVW VW10, AC0\n+I 5, AC0\nMOVW AC0, VW10\n", kCounts), "lost VW10 1-3");
   EXPECT_EQ(races("LD I0.0\nMOVW VW10, VW20\n+I 5, VW20\nLD I0.1\nMOVW VW20, VW10\n", kCounts), "lost VW10 1-4");
-  EXPECT_EQ(races("LDW= VW10, 9\nMOVW 0, VW10\n", kCounts), "lost VW10 0-1") << "what the rung depends on";
+  EXPECT_EQ(races("LDW= VW10, 9\nMOVW 0, VW10\n", kCounts), "lost? VW10 0-1") << "what the rung depends on";
 }
 
 TEST(Races, AccessesInOneInstructionAreNone) {
@@ -82,6 +82,79 @@ TEST(Races, SubroutinesOfBothSidesCount) {
   EXPECT_EQ(races("LD I0.0\nMOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\n", "LD SM0.0\nCALL 2\n",
                   "SBR 2\nLD SM0.0\nINCW VW10\nRET\n"),
             "lost VW10 1-3");
+}
+
+TEST(Races, ABitThatACoilWritesBack) {
+  EXPECT_EQ(races("LD M1.0\nAN I0.1\n= M1.0\n", "LD SM0.0\nR M1.0, 1\n"), "lost M1.0 0-2");
+  EXPECT_EQ(races("LD I0.0\nO M1.0\nAN I0.1\n= M1.0\n", "LD SM0.0\nS M1.0, 1\n"), "lost M1.0 1-3");
+  EXPECT_EQ(races("LD M1.0\n= M2.0\nLD M2.0\n= M1.0\n", "LD SM0.0\nR M1.0, 1\n"), "lost M1.0 0-3")
+      << "by way of another bit";
+  EXPECT_EQ(races("LD M1.0\nLD I0.0\nALD\n= M1.0\n", "LD SM0.0\nR M1.0, 1\n"), "lost M1.0 0-3");
+  EXPECT_EQ(races("LD M1.0\n= Q0.0\nLD I0.0\n= M1.0\n", "LD SM0.0\nR M1.0, 1\n"), "") << "does not depend on it";
+  EXPECT_EQ(races("LD I0.0\nS M1.0, 1\nLD I0.1\nR M1.0, 1\n", "LD SM0.0\n= M1.3\n"), "") << "another bit of the byte";
+}
+
+TEST(Races, WhatIsReadAndWrittenOver) {
+  EXPECT_EQ(races("LD I0.0\nMOVW VW10, VW20\nMOVW 0, VW10\n", kCounts), "overwritten? VW10 1-2");
+  EXPECT_EQ(races("LD I0.0\n+I VW10, VW20\nMOVW 0, VW10\n", kCounts), "overwritten? VW10 1-2");
+  EXPECT_EQ(races("LD I0.0\nMOVW VW10, VW20\nFILL 0, VW10, 4\n", kCounts), "overwritten? VW10 1-2");
+  EXPECT_EQ(races("LD I0.0\nMOVW VW10, VW20\nLD I0.1\nMOVW 0, VW10\n", kCounts), "") << "reset for another reason";
+  EXPECT_EQ(races("LD I0.0\nMOVW 0, VW10\nMOVW VW10, VW20\n", kCounts), "") << "read afterwards";
+  EXPECT_EQ(races("LDW> VW10, 5\n= Q0.0\nLD SM0.0\nMOVW 0, VW10\n", kCounts), "") << "nothing keeps the value";
+}
+
+TEST(Races, ScratchMemoryOfBothSides) {
+  constexpr std::string_view kWrites = "LD SM0.0\nMOVW 0, VW50\n";
+  EXPECT_EQ(races("LD SM0.0\nMOVW VW10, VW50\n+I 2, VW50\nMOVW VW50, VW20\n", kWrites), "scratch? VW50 1-3");
+  EXPECT_EQ(races("LD SM0.0\nMOVW 0, VW50\nLDW= VW50, 1\n= Q0.0\n", "LD SM0.0\nMOVW 1, VW50\n"), "")
+      << "a sign to the other";
+  EXPECT_EQ(races("LD SM0.0\nMOVW VW50, VW22\nMOVW VW10, VW50\n+I 2, VW50\nMOVW VW50, VW20\n", kWrites),
+            "overwritten? VW50 1-2")
+      << "what the interrupt wrote is looked at";
+  EXPECT_EQ(
+      races("LD SM0.0\nMOVD &VB500, VD60\n+D 4, VD60\nMOVW *VD60, VW20\n", "LD SM0.0\nMOVD &VB600, VD60\nMOVW 7, *VD60\n"),
+      "scratch? VD60 1-3");
+}
+
+TEST(Races, PointersThatMove) {
+  constexpr std::string_view kLoop =
+      "LD SM0.0\nMOVD &VB100, AC1\nFOR VW0, 1, 5\nLD SM0.0\nMOVW *AC1, AC0\nINCW AC0\nMOVW AC0, *AC1\n+D 2, AC1\nNEXT\n";
+  EXPECT_EQ(races(kLoop, "LD SM0.0\nINCW VW106\n"), "lost? VW106 4-6");
+  EXPECT_EQ(races(kLoop, "LD SM0.0\nINCW VW110\n"), "") << "the last is VW108";
+  EXPECT_EQ(races("LD SM0.0\nMOVD &VB100, AC1\n+D VD20, AC1\nMOVW *AC1, AC0\nINCW AC0\nMOVW AC0, *AC1\n",
+                  "LD SM0.0\nINCW VW100\n"),
+            "lost? VW100 3-5")
+      << "an index that is not known";
+}
+
+TEST(Races, ReadInOneRoutineAndWrittenInAnother) {
+  constexpr std::string_view kReads = "SBR 1\nLD SM0.0\nMOVW VW10, AC0\nRET\n",
+                             kWrites = "SBR 2\nLD SM0.0\n+I 2, AC0\nMOVW AC0, VW10\nRET\n";
+  const std::string both = std::string(kReads) + std::string(kWrites);
+  EXPECT_EQ(races("LD SM0.0\nCALL 1\n+I 2, AC0\nMOVW AC0, VW10\n", kCounts, kReads), "lost VW10 7-3");
+  EXPECT_EQ(races("LD SM0.0\nMOVW VW10, AC0\nCALL 2\n", kCounts, kWrites), "lost VW10 1-7");
+  EXPECT_EQ(races("LD SM0.0\nCALL 1\nCALL 2\n", kCounts, both), "lost VW10 6-11");
+  EXPECT_EQ(races("LD SM0.0\nDISI\nCALL 1\nCALL 2\nENI\n", kCounts, both), "");
+}
+
+TEST(Races, ATableCountsInItsSecondWord) {
+  EXPECT_EQ(races("LD SM0.0\nMOVW VW302, AC0\nDECW AC0\nMOVW AC0, VW302\n", "LD SM0.0\nATT VW0, VW300\n"), "lost VW302 1-3");
+  EXPECT_EQ(races("LDW> VW302, 0\nFIFO VW300, VW200\n", "LD SM0.0\nATT VW0, VW300\n"), "") << "in one instruction";
+}
+
+TEST(Races, AStringMayHaveWhatTheOtherSideWrites) {
+  EXPECT_EQ(races("LD SM0.0\nMOVB VB100, AC0\nINCB AC0\nMOVB AC0, VB100\n", "LD SM0.0\nSCAT \"A\", VB100\n"),
+            "lost VB100 1-3");
+  EXPECT_EQ(races("LD SM0.0\nSCPY VB100, VB200\nSCPY VB200, VB100\n", "LD SM0.0\nINCB VB101\n"), "lost? VB101 1-2");
+}
+
+TEST(Races, DtchKeepsItsInterruptAway) {
+  constexpr std::string_view kUpdate = "MOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\n";
+  const auto after = [&](std::string_view first) {
+    return races(fmt::format("LD SM0.0\n{}\n{}ATCH 0, 10\n", first, kUpdate), kCounts);
+  };
+  EXPECT_EQ(after("DTCH 10"), "");
+  EXPECT_EQ(after("DTCH 11"), "lost VW10 2-4") << "another event";
 }
 
 }  // namespace

@@ -9,11 +9,11 @@
 #include "interpreter/analysis/cross_reference.hpp"
 #include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/analysis/flow/calls.hpp"
-#include "interpreter/analysis/races.hpp"
 #include "interpreter/analysis/warnings/remarks.hpp"
 #include "interpreter/base/text/counted.hpp"
 #include "interpreter/base/text/joined.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "tools/views/inspection/races_view.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -31,7 +31,7 @@ struct Overview {
       : inspection(of),
         calls(calls_of(*of.program, of.facts.flow)),
         reference(cross_reference(of.facts)),
-        races(find_races(of.facts, calls, of.waiter).size()),
+        races(found_races(of).size()),
         remarks(remarks_of(of.facts, reference)) {}
 
   const Inspection& inspection;

@@ -20,6 +20,10 @@ std::string_view name_of(Race::Kind kind) {
   switch (kind) {
     case Race::Kind::LostUpdate:
       return "lost update";
+    case Race::Kind::Overwritten:
+      return "overwritten update";
+    case Race::Kind::Scratch:
+      return "scratch memory of both sides";
     case Race::Kind::TornRead:
       return "torn read";
     case Race::Kind::TornWrite:
@@ -32,6 +36,11 @@ std::string_view explanation(Race::Kind kind) {
   switch (kind) {
     case Race::Kind::LostUpdate:
       return "the main program writes what it has worked out from an older value; what the interrupt wrote between is lost";
+    case Race::Kind::Overwritten:
+      return "the main program reads it and then writes over it; what the interrupt wrote between is never read";
+    case Race::Kind::Scratch:
+      return "the main program writes it and reads it again for its own use; what the interrupt writes between is read "
+             "instead";
     case Race::Kind::TornRead:
       return "the main program reads it in parts; between them the interrupt writes all of it";
     case Race::Kind::TornWrite:
@@ -48,22 +57,17 @@ std::string with_symbols(const Inspection& inspection, const Bits& bits) {
   return text;
 }
 
-std::vector<Race> wanted(const Inspection& inspection) {
-  std::vector<Race> all =
-      find_races(inspection.facts, calls_of(*inspection.program, inspection.facts.flow), inspection.waiter);
-  const Selection& selection = inspection.selection;
-  std::erase_if(all, [&](const Race& race) {
-    const bool memory = selection.memory.empty() || selection.has(race.bits);
-    const bool ops = selection.ops.empty() || selection.has_op(race.first) || selection.has_op(race.last) ||
-                     selection.has_op(race.interrupt);
-    return !memory || !ops;
-  });
-  return all;
+bool is_wanted(const Selection& selection, const Race& race) {
+  const bool memory = selection.memory.empty() || selection.has(race.bits);
+  const bool ops = selection.ops.empty() || selection.has_op(race.first) || selection.has_op(race.last) ||
+                   selection.has_op(race.interrupt);
+  return memory && ops;
 }
 
-std::string scenario_text(const Inspection& inspection, const Race& race) {
+std::string scenario_text(const Inspection& inspection, const FoundRace& found) {
+  const auto& [race, lost] = found;
+  if (inspection.has_errors) return "  no run of it: a program with errors is not run\n";
   if (!inspection.lose_word) return {};
-  const auto lost = inspection.lose_word(inspection, race);
   if (!lost && inspection.was_interrupted()) return "  interrupted before a run was found in which the word is lost\n";
   if (!lost) return "  no run of it was found in which the word is lost\n";
   return "  " +
@@ -77,37 +81,51 @@ std::string scenario_text(const Inspection& inspection, const Race& race) {
          "\n";
 }
 
-std::string race_text(const Inspection& inspection, const Race& race) {
+std::string race_text(const Inspection& inspection, const FoundRace& found) {
+  const Race& race = found.race;
   std::string text =
       fmt::format("{} of {}: {}", name_of(race.kind), with_symbols(inspection, race.bits), explanation(race.kind));
   text = wrapped_at(text, 2) + "\n";
   text += row_text(inspection, "  main       ", race.first) + row_text(inspection, "  main       ", race.last);
   text += row_text(inspection, fmt::format("  event {}", column(std::to_string(race.event), 5)), race.interrupt);
-  return text + scenario_text(inspection, race);
+  return text + scenario_text(inspection, found);
 }
 
 }  // namespace
 
+std::vector<FoundRace> found_races(const Inspection& inspection) {
+  std::vector<FoundRace> all;
+  for (const Race& race :
+       find_races(inspection.facts, calls_of(*inspection.program, inspection.facts.flow), inspection.waiter)) {
+    if (!is_wanted(inspection.selection, race)) continue;
+    const bool runs = inspection.lose_word && !inspection.has_errors && !inspection.was_interrupted();
+    auto lost = runs ? inspection.lose_word(inspection, race) : std::nullopt;
+    if (lost || !race.suspected) all.push_back({race, std::move(lost)});
+  }
+  return all;
+}
+
 std::string races_text(const Inspection& inspection) {
-  const std::vector<Race> races = wanted(inspection);
+  const std::vector<FoundRace> races = found_races(inspection);
   std::string text;
-  for (const Race& race : races) text += race_text(inspection, race);
+  for (const FoundRace& race : races) text += race_text(inspection, race);
   if (inspection.was_interrupted())
     return text + fmt::format("{} found before the interruption\n", counted(races.size(), "race"));
-  if (races.empty()) return "no races found\n";
+  if (races.empty()) text += "no races found\n";
+  if (inspection.has_errors) text += "the program has errors and was not run: what only a run can show is left out\n";
+  if (races.empty()) return text;
   return text + fmt::format("{}; DISI before the first instruction and ENI after the last keep the interrupt away\n",
                             counted(races.size(), "race"));
 }
 
 ordered_json races_json(const Inspection& inspection) {
   ordered_json all = ordered_json::array();
-  for (const Race& race : wanted(inspection)) {
+  for (const auto& [race, lost] : found_races(inspection)) {
     ordered_json json{{"kind", name_of(race.kind)}, {"memory", memory_text(race.bits)}, {"event", race.event}};
     json["interrupt_routine"] = routine_text(inspection.facts.flow.routines[race.routine]);
     json["first"] = place_json(inspection, race.first);
     json["last"] = place_json(inspection, race.last);
     json["interrupt"] = place_json(inspection, race.interrupt);
-    const auto lost = inspection.lose_word ? inspection.lose_word(inspection, race) : std::nullopt;
     json["lost"] = nullptr;
     if (lost)
       json["lost"] = {{"situation", lost->situation},    {"after", place_json(inspection, lost->after)},

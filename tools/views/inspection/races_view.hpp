@@ -3,11 +3,22 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "interpreter/analysis/races.hpp"
 #include "tools/views/inspection/inspection.hpp"
 
 namespace s7200::tools {
+
+struct FoundRace {
+  Race race;
+  std::optional<LostWord> lost;
+};
+
+/// All of them, or those of memory or routines of the selection. Those that are suspected only if a run loses the word.
+std::vector<FoundRace> found_races(const Inspection& inspection);
 
 /// All of them, or those of memory or routines of the selection.
 std::string races_text(const Inspection& inspection);
