@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "interpreter/analysis/longest_ways.hpp"
+#include "interpreter/analysis/timed_interrupts.hpp"
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
@@ -48,8 +49,7 @@ class BoundsBuilder {
   }
 
   Bounds all() {
-    for (std::uint32_t op = 0; op < timed_.ops.size(); ++op)
-      if (is_loop(timed_, op)) bounds_.loops.push_back({op, times_of(op)});
+    find_loops();
     Bounds interrupted;
     interrupted.loops = bounds_.loops;
     interrupted.is_complete = false;
@@ -57,7 +57,29 @@ class BoundsBuilder {
     return waiter_.stop.stop_requested() ? interrupted : std::move(bounds_);
   }
 
+  std::vector<Bounds::OfEvent> timed() {
+    find_loops();
+    bounds_.routines.resize(facts_.flow.routines.size());
+    std::vector<Bounds::OfEvent> all;
+    for (const EventUse& use : calls_.events) {
+      if (!is_timed(use.number) || use.attached.empty()) continue;
+      const auto written = constants_written(facts_, sm::kTimedInterval[use.number - event::kTimed0], Width::Byte);
+      if (!written || written->empty()) continue;
+      for (const Attachment& attachment : use.attached)
+        if (attachment.routine) measure(*attachment.routine);
+      all.push_back(event(use));
+      all.back().period =
+          std::max(timed_.model->shortest_timed_interval, *std::ranges::max_element(*written) * kMillisecond);
+    }
+    return all;
+  }
+
  private:
+  void find_loops() {
+    for (std::uint32_t op = 0; op < timed_.ops.size(); ++op)
+      if (is_loop(timed_, op)) bounds_.loops.push_back({op, times_of(op)});
+  }
+
   void measure_all() {
     measure_routines();
     bounds_.scan = bounds_.routines[0].time;
@@ -126,6 +148,11 @@ class BoundsBuilder {
       if (bounds_.routines.empty()) longest_instruction_ = way.instruction;
       bounds_.routines.push_back({way.time, {way.loops.begin(), way.loops.end()}});
     }
+  }
+
+  void measure(std::uint32_t routine) {
+    const LongestWay way = ways_.of_routines({routine}, usual_).front();
+    bounds_.routines[routine] = {way.time, {way.loops.begin(), way.loops.end()}};
   }
 
   bool saves_to_eeprom() const {
@@ -404,6 +431,11 @@ bool is_loop(const Program& program, std::uint32_t op) {
 Bounds bounds_of(const Facts& facts, const Calls& calls, const Program& timed, const StatedLoops& stated,
                  const Waiter& waiter) {
   return BoundsBuilder(facts, calls, timed, stated, waiter).all();
+}
+
+std::vector<Bounds::OfEvent> timed_interrupts(const Facts& facts, const Calls& calls, const Waiter& waiter) {
+  const StatedLoops stated;
+  return BoundsBuilder(facts, calls, facts.program, stated, waiter).timed();
 }
 
 }  // namespace s7200

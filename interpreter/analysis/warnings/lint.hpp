@@ -40,6 +40,10 @@ void find_double_counters(const Facts& facts, stl::Diagnostics& diagnostics);
 /// A PID keeps what it needs from one execution to the next by the number of its loop.
 void find_double_loops(const Facts& facts, stl::Diagnostics& diagnostics);
 
+/// A timed interrupt that takes longer than its period leaves no time for the main program, and is lost now and then. By the
+/// longest way through its routine (bounds.hpp).
+void find_long_interrupts(const Facts& facts, stl::Diagnostics& diagnostics);
+
 /// Interrupts are disabled when the CPU enters RUN (facts 3.3).
 void find_missing_eni(const Facts& facts, stl::Diagnostics& diagnostics);
 

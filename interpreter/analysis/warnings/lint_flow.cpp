@@ -1,14 +1,16 @@
 // Warnings about the ways through a program: what is never reached, what is left out, what is executed twice, what is always
-// overwritten.
+// overwritten, what takes too long.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/analysis/flow/calls.hpp"
 #include "interpreter/analysis/flow/paths.hpp"
+#include "interpreter/analysis/timed_interrupts.hpp"
 #include "interpreter/analysis/warnings/lint.hpp"
 #include "interpreter/analysis/warnings/lint_ops.hpp"
 #include "interpreter/program/checking/warnings.hpp"
@@ -116,6 +118,13 @@ std::optional<std::uint32_t> overwriting(const Facts& facts, Paths& paths, std::
   return {};
 }
 
+/// The mnemonic of a contact that is in series or in parallel with the one in front of it; nothing of any other op.
+std::string_view joined_to_the_top(const Op& op) {
+  const std::string_view mnemonic = op.instruction->mnemonic;
+  const bool joins = op.is_contact && op.instruction->rung.stack.needs == 1 && op.instruction->rung.stack.change == 0;
+  return joins && (mnemonic.starts_with('A') || mnemonic.starts_with('O')) ? mnemonic : std::string_view();
+}
+
 }  // namespace
 
 void find_unreachable(const Facts& facts, stl::Diagnostics& diagnostics) {
@@ -183,14 +192,32 @@ void find_skipped_timers(const Facts& facts, stl::Diagnostics& diagnostics) {
   }
 }
 
+void find_long_interrupts(const Facts& facts, stl::Diagnostics& diagnostics) {
+  const Program& program = facts.program;
+  if (has_unread(program) || program.times.rows().empty()) return;
+  const Calls calls = calls_of(program, facts.flow);
+  const auto ms = [](Time time) { return fmt::format("{:.1f} ms", static_cast<double>(time) / kMillisecond); };
+  for (const Bounds::OfEvent& event : timed_interrupts(facts, calls)) {
+    if (event.longest_routine <= event.period) continue;
+    const auto use = std::ranges::find(calls.events, event.event, &EventUse::number);
+    diagnostics.push_back(
+        warn(Warning::LongInterrupt, place(program, use->attached.front().op),
+             fmt::format("event {} comes every {}, and its routine can take {}: the main program gets no time, "
+                         "and events are lost",
+                         event.event, ms(*event.period), ms(event.longest_routine)),
+             "work in the main program on what the interrupt notes, or let it come less often"));
+  }
+}
+
 void find_constant_contacts(const Facts& facts, stl::Diagnostics& diagnostics) {
   const Program& program = facts.program;
   for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
     const Op& op = program.ops[i];
     if (!op.is_contact || op[0].unread() || op[0].pointer || op[0].at != sm::kScanStatus || op[0].bit != 0) continue;
     const std::string_view mnemonic = op.instruction->mnemonic;
-    const bool never = mnemonic == "AN" || mnemonic == "ON";
-    if (!never && mnemonic != "O") continue;
+    const std::string_view joined = i + 1 < program.ops.size() ? joined_to_the_top(program.ops[i + 1]) : "";
+    const bool never = mnemonic == "AN" || mnemonic == "ON" || (mnemonic == "LDN" && !joined.empty());
+    if (!never && mnemonic != "O" && !(mnemonic == "LD" && joined.starts_with('O'))) continue;
     diagnostics.push_back(warn(Warning::ConstantContact, place(program, i),
                                never ? "SM0.0 is always 1: this contact never closes"
                                      : "SM0.0 is always 1: what this contact is in parallel with has no effect",

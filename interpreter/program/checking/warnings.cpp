@@ -13,6 +13,8 @@ std::span<const WarningInfo> all_warnings() {
       WarningInfo{Warning::DoubleLoop, "double-loop", "two PIDs of the same loop"},
       WarningInfo{Warning::DoubleTimer, "double-timer", "a timer that is executed twice in a scan"},
       WarningInfo{Warning::LogicStack, "logic-stack", "a rung that leaves more than one value on the logic stack"},
+      WarningInfo{Warning::LongInterrupt, "long-interrupt",
+                  "a timed interrupt whose routine can take longer than its period"},
       WarningInfo{Warning::NoEni, "no-eni", "ATCH in a program without ENI: no interrupt is ever served"},
       WarningInfo{Warning::NoFreeport, "no-freeport",
                   "XMT before SMB30 is written, or XMT or port events in a program that never writes it"},

@@ -17,6 +17,7 @@ enum class Warning : std::uint8_t {
   DoubleCounter,
   DoubleLoop,
   LogicStack,
+  LongInterrupt,
   NoEni,
   NoFreeport,
   NoReceiveEvent,

@@ -156,6 +156,24 @@ TEST(ConstantContact, IsOneOfSm00ThatDoesNothingOrNeverCloses) {
   EXPECT_EQ(warnings_of("LD I0.0\nAN SM0.0\n= Q0.0\nLD I0.1\nO SM0.0\n= Q0.1\nMEND\n"),
             "2 constant-contact\n5 constant-contact\n");
   EXPECT_EQ(warnings_of("LD I0.0\nA SM0.0\n= Q0.0\nLDN SM0.0\n= Q0.1\nMEND\n"), "");
+  EXPECT_EQ(warnings_of("LDN SM0.0\nO I0.1\n= Q0.0\nLDN SM0.0\nA I0.1\n= Q0.1\nLD SM0.0\nO I0.1\n= Q0.2\nMEND\n"),
+            "1 constant-contact\n4 constant-contact\n7 constant-contact\n");
+  EXPECT_EQ(warnings_of("LD SM0.0\nA I0.1\n= Q0.0\nLDN SM0.0\nNOT\n= Q0.1\nMEND\n"), "");
+}
+
+// --- long-interrupt ---
+
+TEST(LongInterrupt, IsATimedOneThatTakesLongerThanItsPeriod) {
+  const auto of = [](std::string_view period, std::string_view passes) {
+    return warnings_of(fmt::format("LD SM0.1\nMOVB {}, SMB34\nATCH 0, 10\nENI\nMEND\n"
+                                   "INT 0\nLD SM0.0\nFOR VW910, 1, {}\nLD SM0.0\n*R 1.0, VD912\nNEXT\nRETI\n",
+                                   period, passes),
+                       *find_cpu("224"));
+  };
+  EXPECT_EQ(of("5", "500"), "3 long-interrupt\n");
+  EXPECT_EQ(of("5", "5"), "");
+  EXPECT_EQ(of("255", "500"), "");
+  EXPECT_EQ(of("VB0", "500"), "") << "nobody knows the period";
 }
 
 // --- double-timer, double-counter ---
