@@ -36,6 +36,17 @@ Content anywhere_in_areas(const Content& before) {
   return content;
 }
 
+/// The first op that counts a pointer.
+std::optional<std::uint32_t> counting(const Program& program, std::uint32_t pointer) {
+  for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
+    const Op& op = program.ops[i];
+    if (!step_of(program, op)) continue;
+    const Operand& to = op[value_box_of(*op.instruction)->to];
+    if (!to.pointer && to.at == pointer) return i;
+  }
+  return {};
+}
+
 Content anything() { return {.anything = true, .addresses = {}, .areas = {}}; }
 
 }  // namespace
@@ -56,20 +67,26 @@ bool Pointers::Content::add(const Content& other) {
 }
 
 Pointers::Pointers(const Program& program, const ControlFlow& flow, const Waiter& waiter) : program_(program) {
-  for (const Op& op : program.ops)
-    for (const Operand& operand : op.operand)
-      if (operand.pointer) begin(operand.at);
-  for (const Parameter& parameter : program.parameters)
-    if (parameter.actual.pointer) begin(parameter.actual.at);
-  do {
-    while (!contents_.empty() && !waiter.asks_to_end() && add_writes()) {
-    }
-  } while (!waiter.asks_to_end() && give_up_unset());
-  if (waiter.asks_to_end())
-    for (auto& [at, content] : contents_) content.add(anything());
+  const auto find_contents = [&] {
+    contents_.clear();
+    given_up_.clear();
+    for (const Op& op : program.ops)
+      for (const Operand& operand : op.operand)
+        if (operand.pointer) begin(operand.at);
+    for (const Parameter& parameter : program.parameters)
+      if (parameter.actual.pointer) begin(parameter.actual.at);
+    do {
+      while (!contents_.empty() && !waiter.asks_to_end() && add_writes()) {
+      }
+    } while (!waiter.asks_to_end() && give_up_unset());
+    if (waiter.asks_to_end())
+      for (auto& [at, content] : contents_) content.add(anything());
+  };
+  find_contents();
   if (has_unread(program) || waiter.asks_to_end()) return;
-  // What is known of pointers tells what interrupts and subroutines write, and that tells more of pointers.
+  // What is known of pointers tells what instructions write through them, and that tells more of pointers.
   for (int round = 0; round < (contents_.empty() ? 1 : 2); ++round) {
+    if (round > 0) find_contents();
     std::vector<std::vector<MemoryAccess>> effects;
     for (std::uint32_t op = 0; op < program.ops.size(); ++op) effects.push_back(effects_of(program, op, *this));
     reaching_ = ReachingValues(program, flow, effects, *this, waiter);
@@ -176,7 +193,15 @@ std::optional<Pointers::Unknown> Pointers::unknown(std::uint32_t op, std::uint32
   });
   if (!anywhere) return {};
   const auto value = reaching_ ? reaching_->pointer(op, at) : std::nullopt;
-  if (!value || value->cause() == ValueSet::kNoCause) return unknown(at);
+  if (!value || value->cause() == ValueSet::kNoCause) {
+    const auto why = unknown(at);
+    const auto goes_through_it = [at](const Operand& operand) { return operand.pointer && operand.at == at; };
+    const bool by_itself = why && why->reason == Unknown::Reason::Written &&
+                           std::ranges::any_of(program_.ops[why->op].operand, goes_through_it);
+    if (why && !by_itself) return why;
+    const auto counts = counting(program_, at);  // because of which it may lead anywhere, to itself too
+    return counts ? Unknown{Unknown::Reason::Counted, *counts} : why;
+  }
   const bool counted = step_of(program_, program_.ops[value->cause()]).has_value();
   return Unknown{counted ? Unknown::Reason::Counted : Unknown::Reason::Written, value->cause()};
 }

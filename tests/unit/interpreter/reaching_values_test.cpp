@@ -156,6 +156,10 @@ TEST(ReachingValues, WhatStaysUnknownIsToldWithItsReason) {
   EXPECT_EQ(blamed("LD SM0.0\nMOVD &VB100, AC1\nITD VW0, AC0\n+D AC0, AC1\nMOVB 1, *AC1\nMEND\n"), "line 3");
   EXPECT_EQ(blamed("LD SM0.0\nMOVD VD0, AC1\nMOVB 1, *AC1\nMEND\n"), "line 2");
   EXPECT_EQ(blamed("LD SM0.0\nMOVB 1, *AC1\nMEND\n"), "not set");
+  EXPECT_EQ(blamed("LD SM0.1\nMOVD &VB100, VD808\nATCH 0, 8\nENI\nMEND\nINT 0\nLD SM0.0\nMOVB SMB2, *VD808\nINCD VD808\n"
+                   "RETI\n"),
+            "line 9 counts")
+      << "not line 8, which reaches the pointer because of that";
   EXPECT_EQ(blamed("LD SM0.1\nMOVD &VB0, AC1\nLD SM0.0\nINCD AC1\nMOVB 1, *AC1\nMEND\n"), "known") << "VB1 and up";
 }
 
