@@ -1060,6 +1060,9 @@ class Verbs(Case):
         self.assertAlmostEqual(float(late[0][1]) - float(plain[0][1]), 300, places=2)
         self.assertEqual(answers("answer:delay=300ms,exchange=1", "answer:exception=6,exchange=1")[0], (whole("018306"), late[0][1]))
         self.assertEqual([frame for frame, _ in answers("answer:twice,exchange=1")][1], whole("01030400000000"))
+        again = s7200(*ask, "--fault", "answer:twice")  # that of the last request comes when nobody asks anymore
+        self.assertEqual(re.findall(r"^unasked  ([0-9a-f ]+)$", again.stdout, re.M), [whole("0103021234"), whole("01030400000000")])
+        self.assertEqual(self.json(FINE, *ask, "--fault", "answer:twice", "--json")["unasked"], framed(bytes.fromhex("01030400000000")).hex())
 
     def test_help_lists_every_fault(self):
         table = (SOURCE / "serial_sim/faults/README.md").read_text(encoding="utf-8").split("| fault |")[1].split("\n\n")[0]
@@ -2562,6 +2565,7 @@ class JsonPage(Case):
                     ["master", SLAVE, "read", "40001", "write", "40001=1", "slave-id"],
                     ["send", SOURCE / "stl_programs/text_commands.stl", "--text", "GET\\r"],
                     ["send", waits, "01020304050607", "--timeline", "--timeout", "10ms"],
+                    ["send", SLAVE, "--crc", "0103000a0001", "--fault", "answer:twice"],
                     ["send", SLAVE, "0103000a00010000", "--timeline", "--timeout", "50ms"],
                     ["send", hasty, "41", "--baud", "300", "--parity", "none"], ["instructions"], ["instructions", "MOVB"], ["times"], ["times", "cpu214", "cpu214_from_22x"], ["times", "--check", "cpu214"],
                     ["times", "--band-table", "1"],

@@ -65,10 +65,13 @@ int run_send(const CLI::App& verb, SendOptions& options) {
     }
     slave->wait(options.pause == kNever ? slave->pause() : options.pause);
   }
+  const Bytes at_last = ready ? serial::bytes_of(master.heard()) : Bytes{};
   const bool report_written = write_report(options.report, "send", recorder.get(), options.program.repairs);
   const bool all_written = finish(*rig) && report_written;
   const UnansweredRequests why_none = unanswered ? unanswered->explained(options.master.timeout) : UnansweredRequests{};
-  fmt::print("{}", options.json ? results.end(with_why(rig_json(*rig), why_none)) : why_text(why_none) + dump_text(*rig));
+  auto end = with_why(rig_json(*rig), why_none);
+  if (!at_last.empty()) end["unasked"] = plain_hex(at_last);
+  fmt::print("{}", options.json ? results.end(end) : unasked_text(at_last) + why_text(why_none) + dump_text(*rig));
   fmt::print(stderr, "{}", errors_text(*rig));
   if (!unanswered && ready && answered + foreign < frames->size() && !interrupted())
     print_note(note_on_unknown_causes(slave->name(), true));
