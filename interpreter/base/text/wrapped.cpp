@@ -40,10 +40,10 @@ std::size_t indent_of(std::string_view line, std::size_t width) {
   return indent;
 }
 
-/// The number of bytes that fit in a line of `width` characters: up to a blank, or the whole of a word that is wider. The
-/// line is not broken at the blanks that it begins with.
-std::size_t bytes_that_fit(std::string_view line, std::size_t width) {
-  std::size_t column = 0, bytes = 0, last_blank = 0;
+/// The number of bytes that fit in a line of `width` characters from `column` on: up to a blank, or the whole of a word that
+/// is wider. The line is not broken at the blanks that it begins with.
+std::size_t bytes_that_fit(std::string_view line, std::size_t width, std::size_t column) {
+  std::size_t bytes = 0, last_blank = 0;
   bool in_text = false;
   Screen screen;
   for (const Character c : characters(line)) {
@@ -60,14 +60,13 @@ std::size_t bytes_that_fit(std::string_view line, std::size_t width) {
   return column > width && last_blank > 0 ? last_blank : line.size();
 }
 
-void add_wrapped(std::string& text, std::string line, std::size_t width, std::size_t indent) {
-  while (true) {
-    const std::size_t bytes = bytes_that_fit(line, width);
-    text += trim_end(std::string_view(line).substr(0, bytes));
-    text += '\n';
+void add_wrapped(std::string& text, std::string_view line, std::size_t width, std::size_t indent) {
+  for (std::size_t column = 0;; column = indent) {
+    const std::size_t bytes = bytes_that_fit(line, width, column);
+    text.append(column, ' ').append(trim_end(line.substr(0, bytes))).append(1, '\n');
     const std::size_t rest = line.find_first_not_of(' ', bytes);
-    if (rest == std::string::npos) return;
-    line = std::string(indent, ' ') + line.substr(rest);
+    if (rest == std::string_view::npos) return;
+    line.remove_prefix(rest);
   }
 }
 
@@ -79,7 +78,7 @@ std::string wrapped_by(std::string_view text, std::size_t width, Indent indent) 
     if (line.size() <= width)  // no character has less than a byte
       wrapped.append(trim_end(line)).append(1, '\n');
     else
-      add_wrapped(wrapped, std::string(line), width, indent(line));
+      add_wrapped(wrapped, line, width, indent(line));
   }
   return wrapped;
 }

@@ -27,6 +27,13 @@ TEST(Wrapped, AColumnWithoutRoomForTheRestIsNotGoneOnBelow) {
   EXPECT_EQ(wrapped("what is in front of it    and after it", 30), "what is in front of it    and\nafter it\n");
 }
 
+TEST(Wrapped, LinesOfAVeryLongOneAreEachReadOnce) {
+  std::string words, lines = "11 11\n";
+  for (int i = 0; i < 400'000; ++i) words += "11 ";
+  for (int i = 0; i < 199'999; ++i) lines += " 11 11\n";
+  EXPECT_EQ(wrapped(words, 6, 1), lines);
+}
+
 TEST(Wrapped, AWordThatIsWiderThanTheScreenStaysWhole) {
   EXPECT_EQ(wrapped("0123456789abcdef is one", 10), "0123456789abcdef\nis one\n");
   EXPECT_EQ(wrapped("    0123456789abcdef", 10), "    0123456789abcdef\n");
