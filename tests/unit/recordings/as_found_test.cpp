@@ -78,6 +78,12 @@ TEST(AsFound, RowsOfPulseViewThatFollowEachOtherAreInTheOrderOfTheirSamples) {
   EXPECT_EQ(bytes_of("0-90 UART: RX: 01\n200-290 UART: RX: 03\n100-190 UART: TX: 02\n"), "01 02 03");
 }
 
+TEST(AsFound, NumbersInFrontOfARowAreNotAlwaysSamples) {
+  EXPECT_EQ(bytes_of("100-200 TX: " + kRequest + "\n300-400 RX: " + kAnswer + "\n"), kRequest + " " + kAnswer);
+  EXPECT_EQ(refusal_of("100-200 Modbus: Slave ID: 17\n"),
+            "it is what sigrok's decoder Modbus says, without the characters; print them with sigrok-cli -A uart");
+}
+
 TEST(AsFound, ASamplerateThatIsNotUsedIsNamed) {
   ReadingChoices choices;
   choices.samplerate = 1'000'000;

@@ -179,7 +179,10 @@ std::string_view other_decoder(std::string_view bytes) {
   for (const std::string_view line : Lines(beginning_of(bytes))) {
     const auto head = annotation_head(line);
     if (head && is_of_characters(*head)) return "";
-    const bool is_known = head && (!head->first.empty() || std::ranges::find(kDecoders, head->decoder) != kDecoders.end());
+    const auto is_of_sigrok = [&] {  // `100-200 TX: 01` may be of any log
+      return std::ranges::find(kDecoders, stl::lower_case(head->decoder)) != kDecoders.end();
+    };
+    const bool is_known = head && ((!head->first.empty() && !head->of_pulseview) || is_of_sigrok());
     if (is_known && other.empty()) other = head->decoder;
   }
   return other;
