@@ -477,7 +477,8 @@ TEST(SystemDebugger, WhyKnowsWhatBecameOfARequestOfAMasterThatPolls) {
       {"cut:from=900ms",
        "scada sent 8 characters from 1000.000000 ms to 1009.166664 ms, and the PLC heard nothing: fault cut"},
       {"missing:of=answer,character=each,exchange=1",
-       " ms, and scada heard none of them: fault missing:character=each,of=answer,exchange=1: 9×\n"}};
+       " ms, and scada heard none of them: fault missing:character=each,of=answer,exchange=1: 9×\n"},
+      {"answer:silent,exchange=1", ": fault answer:silent,exchange=1: 1×\n"}};
   for (const auto& [fault, why] : kCases) {
     SystemSession session = polled_with(std::string(fault));
     EXPECT_TRUE(has(session("continue 700ms; break unanswered; continue"), "  asked by scada\n")) << fault;
