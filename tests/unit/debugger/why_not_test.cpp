@@ -149,6 +149,8 @@ TEST(WhyNot, ATimerThatCountsSaysHowLongStillAndOneThatDoesNotWhatItsRungNeeds) 
                   "      Q0.0 is 0"))
       << still;
   EXPECT_TRUE(has(session("input I0.0=1; continue 1s; why not T37"), "must be 1: in 2.5 s (1 s of 3.5 s have passed)\n"));
+  EXPECT_TRUE(has(session("input I0.0=1; continue 1s; mode stop; why not T37"),
+                  "must be 1: the CPU is in STOP, where nothing counts (2 s of 3.5 s have passed)\n"));
 }
 
 TEST(WhyNot, ACounterSaysHowManyEdgesItsInputNeeds) {

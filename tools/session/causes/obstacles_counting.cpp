@@ -49,7 +49,9 @@ Obstacle Obstacles::of_timer(const Bits& bit, bool wanted) {
     const bool counts =
         starts || (off_delay ? state.enabled && !state.input && !wanted : state.enabled && wanted && now < preset);
     if (counts) {
-      found.text = fmt::format("in {} ({})", timed_text(preset - now, base), passed_text(now, preset, base));
+      const bool stands = has_run_ && cpu_.state().mode == Mode::Stop;
+      const std::string when = stands ? "the CPU is in STOP, where nothing counts" : "in " + timed_text(preset - now, base);
+      found.text = fmt::format("{} ({})", when, passed_text(now, preset, base));
       return found;
     }
     const std::string after = wanted == off_delay ? "" : fmt::format(" for {}", timed_text(preset, base));
