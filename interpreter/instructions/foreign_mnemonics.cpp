@@ -26,6 +26,7 @@ constexpr std::string_view kGerman = "a German mnemonic";
 constexpr std::string_view kStep7 = "a mnemonic of STEP 7 for the S7-300 and S7-400";
 constexpr std::string_view kIec = "a mnemonic of IEC 61131-3";
 constexpr std::string_view kMitsubishi = "a mnemonic of Mitsubishi controllers";
+constexpr std::string_view kOmron = "a mnemonic of Omron controllers";
 constexpr std::string_view kOther = "a mnemonic of other controllers";
 constexpr std::string_view kContact = "a contact of the ladder editor";
 constexpr std::string_view kLadderBox = "a box of the ladder editor";
@@ -36,6 +37,7 @@ constexpr std::string_view kInterruptHeading = "the heading of an interrupt rout
 constexpr std::string_view kSmart = "an instruction of the S7-200 SMART";
 constexpr std::string_view kAsCpu226 =
     "a program for the SMART runs here as CPU 226 as far as it goes; what GET and PUT do there, NETR and NETW do on a 226";
+constexpr std::string_view kEthernet = "it talks through the SMART's Ethernet port, which no CPU 22x has";
 constexpr std::string_view kEnds = "the main program ends with MEND, a subroutine with RET, an interrupt routine with RETI";
 constexpr std::string_view kForMoves = "write MOVB, MOVW, MOVD or MOVR, as wide as what it moves";
 constexpr std::string_view kCompare = "write a contact that compares, such as LDW>= IN1, IN2";
@@ -47,6 +49,7 @@ constexpr ForeignRow kForeignRows[] = {
     {"ZV",    kGerman,     "write CTU"},
     {"ZVR",   kGerman,     "write CTUD"},
     {"ZR",    kGerman,     "write CTD"},
+    {"FLANKE", kGerman,    "write EU for a rising edge, ED for a falling one"},
     {"SPA",   kGerman,     "write JMP"},
     {"SPB",   kGerman,     "write JMP"},
 
@@ -79,6 +82,20 @@ constexpr ForeignRow kForeignRows[] = {
     {"GIP",   kSmart,      kAsCpu226},
     {"SIP",   kSmart,      kAsCpu226},
 
+    {"TCON",  kSmart,      kEthernet},
+    {"TSEND", kSmart,      kEthernet},
+    {"TRECV", kSmart,      kEthernet},
+    {"TDCON", kSmart,      kEthernet},
+
+    {"LDNOT",  kOther,     "write LDN"},
+    {"ANOT",   kOther,     "write AN"},
+    {"ANDNOT", kOther,     "write AN"},
+    {"ONOT",   kOther,     "write ON"},
+    {"ORNOT",  kOther,     "write ON"},
+    {"OUTNOT", kOther,     "write NOT, then ="},
+    {"NOTB",   kOther,     "write INVB OUT"},
+    {"NOTW",   kOther,     "write INVW OUT"},
+    {"NOTD",   kOther,     "write INVD OUT"},
     {"AND",   kOther,      "write A"},
     {"ANDN",  kIec,        "write AN"},
     {"ANDI",  kOther,      "write AN for a closed contact, AI to read an input at once"},
@@ -105,6 +122,13 @@ constexpr ForeignRow kForeignRows[] = {
     {"OUT",   kOther,      "write ="},
     {"SET",   kOther,      "write S BIT, 1"},
     {"RST",   kOther,      "write R BIT, 1"},
+    {"RESET", kOther,      "write R BIT, 1"},
+    {"RETURN", kOther,     "write CRET in a subroutine, CRETI in an interrupt routine; RET and RETI end them"},
+    {"HALT",  kOther,      "write STOP"},
+    {"SHL",   kOther,      "write SLB, SLW or SLD OUT, N, as wide as OUT"},
+    {"SHR",   kOther,      "write SRB, SRW or SRD OUT, N, as wide as OUT"},
+    {"ROL",   kOther,      "write RLB, RLW or RLD OUT, N, as wide as OUT"},
+    {"ROR",   kOther,      "write RRB, RRW or RRD OUT, N, as wide as OUT"},
     {"INV",   kMitsubishi, "write NOT"},
     {"ANB",   kMitsubishi, "write ALD"},
     {"MPS",   kMitsubishi, "write LPS"},
@@ -117,6 +141,11 @@ constexpr ForeignRow kForeignRows[] = {
     {"ORP",   kMitsubishi, "write LD, EU, then OLD"},
     {"ORF",   kMitsubishi, "write LD, ED, then OLD"},
     {"PLF",   kMitsubishi, "write ED, then ="},
+    {"TMR",   kOther,      "write TON"},
+    {"TIM",   kOmron,      "write TON; it counts the steps of its timer, 100 ms are 10 of one of 10 ms"},
+    {"DIFU",  kOmron,      "write EU, then ="},
+    {"DIFD",  kOmron,      "write ED, then ="},
+    {"KEEP",  kOmron,      "write S BIT, 1 for its set input, then R BIT, 1 for its reset input: the last has priority"},
     {"MEP",   kMitsubishi, "write EU"},
     {"MEF",   kMitsubishi, "write ED"},
     {"CJ",    kMitsubishi, "write JMP"},
@@ -160,6 +189,19 @@ constexpr ForeignRow kForeignRows[] = {
     {"RS",       kLadderBox, "write S BIT, 1 for its set input, then R BIT, 1 for its reset input: the last has priority"},
     {"CLR_EVNT", kLadderBox, "its instruction, CEVNT, is not modelled"},
     {"TBL_FIND", kLadderBox, "write FND=, FND<>, FND< or FND> SRC, PATRN, INDX, as its CMD is 1, 2, 3 or 4"},
+};
+
+/// A mnemonic that others use with another number of operands.
+struct OtherUse {
+  std::string_view mnemonic;
+  std::size_t operands;
+  std::string_view what, hint;
+};
+
+constexpr OtherUse kOtherUses[] = {
+    {"ORB", 0, kMitsubishi, "write OLD"},
+    {"S",   1, kStep7,      "write S BIT, 1"},
+    {"R",   1, kStep7,      "write R BIT, 1"},
 };
 
 /// A box whose name is not the mnemonic of its instruction.
@@ -283,6 +325,22 @@ std::vector<BoxStep> steps_of_box(std::string_view name, std::size_t operands) {
   return steps;
 }
 
+std::vector<BoxStep> steps_with_output(const Instruction& instruction, std::size_t operands) {
+  const auto* const box = std::ranges::find_if(
+      kForeignBoxes, [&](const Box& each) { return each.mnemonic == instruction.mnemonic && !each.move.empty(); });
+  if (box != std::end(kForeignBoxes)) return steps_of_box(box->name, operands);
+  const bool to_low_word = instruction.mnemonic == "MUL" || instruction.mnemonic == "DIV";
+  if (!to_low_word || operands != instruction.rules().size() + 1) return {};
+  return {{find_instruction("MOVW"), {0, 2}}, {&instruction, {1, 2}}};
+}
+
+UnknownMnemonic other_use(std::string_view mnemonic, std::size_t operands) {
+  const auto* const use = std::ranges::find_if(
+      kOtherUses, [&](const OtherUse& each) { return each.mnemonic == mnemonic && each.operands == operands; });
+  if (use == std::end(kOtherUses)) return {};
+  return {std::string(use->what), std::string(use->hint)};
+}
+
 bool is_instruction_of_smart(std::string_view mnemonic) {
   const auto* const row = std::ranges::find(kForeignRows, mnemonic, &ForeignRow::mnemonic);
   return row != std::end(kForeignRows) && row->what == kSmart;
@@ -290,13 +348,34 @@ bool is_instruction_of_smart(std::string_view mnemonic) {
 
 namespace {
 
+struct RelationWord {
+  std::string_view word, relation;
+};
+constexpr RelationWord kRelationWords[] = {{"EQ", "="}, {"NE", "<>"}, {"GE", ">="}, {"LE", "<="}, {"GT", ">"}, {"LT", "<"}};
+
+/// `LDB`, `LDWGT`: a comparison without its relation, or with a word for it.
+std::optional<UnknownMnemonic> comparison_without_sign(std::string_view mnemonic) {
+  for (const std::string_view contact : {"LD", "A", "O"}) {
+    if (!mnemonic.starts_with(contact) || mnemonic.size() == contact.size()) continue;
+    const std::string_view base = mnemonic.substr(0, contact.size() + 1), after = mnemonic.substr(base.size());
+    if (!find_instruction(std::string(base) + "=")) continue;
+    if (after.empty())
+      return UnknownMnemonic{"a comparison without its relation",
+                             fmt::format("write {0}=, {0}<>, {0}>=, {0}<=, {0}> or {0}<", base)};
+    const auto* const row = std::ranges::find(kRelationWords, after, &RelationWord::word);
+    if (row != std::end(kRelationWords))
+      return UnknownMnemonic{"a comparison in another form", fmt::format("write {}{}", base, row->relation)};
+  }
+  return std::nullopt;
+}
+
 /// `LD>`, `AI<=`: a comparison that does not say how wide it is, or says it as STEP 7 does.
 std::optional<UnknownMnemonic> comparison_of_others(std::string_view mnemonic) {
   const std::size_t sign = std::min(mnemonic.find_first_of("<>="), mnemonic.size());
   const std::string_view base = mnemonic.substr(0, sign), relation = mnemonic.substr(sign);
-  if (sign == mnemonic.size()) return std::nullopt;
+  if (sign == mnemonic.size()) return comparison_without_sign(mnemonic);
   for (const std::string_view contact : {"LD", "A", "O"}) {
-    if (base == contact)
+    if (base == contact || (base.starts_with(contact) && base.substr(contact.size()) == "A"))
       return UnknownMnemonic{
           "a comparison that does not say what it compares",
           fmt::format("write {0}B{1}, {0}W{1}, {0}D{1} or {0}R{1}, as wide as its operands", contact, relation)};

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstdlib>
 #include <deque>
@@ -176,7 +177,9 @@ class Checker {
   void no_statement() {
     const bool part = !source_.symbols.empty() || !source_.data.empty();
     error({1, 1, 1}, "no STL statement in the file",
-          part ? "it is a part of a project: give the file with the program too" : "a program needs at least MEND");
+          part                    ? "it is a part of a project: give the file with the program too"
+          : model_.self & kCpu22x ? "a program needs at least one instruction"
+                                  : "a program needs at least MEND");
   }
 
   /// The main program of a listing is in no block; there may be blocks all the same, those of stand-ins.
@@ -297,6 +300,11 @@ class Checker {
   const Instruction* known_instruction(const stl::Statement& statement) {
     const Instruction* instruction = find_instruction(statement.mnemonic);
     const std::string& mnemonic = statement.mnemonic;
+    if (const auto [what, hint] = other_use(mnemonic, statement.operands.size()); !what.empty()) {
+      error(statement.position, fmt::format("{} with {} is {}", mnemonic, counted(statement.operands.size()), what), hint,
+            fmt::format("{}: {}", what, hint));
+      return nullptr;
+    }
     if (instruction && (instruction->cpus & model_.self) && instruction->modelled()) return instruction;
     const std::string cause = fmt::format("mnemonic {}", mnemonic);
     if (!instruction)
@@ -317,10 +325,59 @@ class Checker {
     if (is_library_routine(statement.mnemonic))
       return error(statement.position, fmt::format("{} is a routine of a library, not an instruction", shown),
                    fmt::format("write CALL {} and its parameters", shown), cause);
+    if (begins_with_not(statement))
+      if (const auto [what, hint] = unknown_mnemonic(statement.mnemonic + "NOT"); !what.empty())
+        return error(statement.position, fmt::format("{} NOT is {}", shown, what),
+                     fmt::format("{} {}", hint, written_from(statement, 1)));
     const auto [what, hint] = unknown_mnemonic(statement.mnemonic);
     if (what.empty()) return error(statement.position, fmt::format("unknown instruction '{}'", shown), hint, cause);
     // What is said of one mnemonic of another family with the same words is said once.
     error(statement.position, fmt::format("{} is {}", shown, what), hint, fmt::format("{}: {}", what, hint));
+  }
+
+  static bool begins_with_not(const stl::Statement& statement) {
+    const auto* name = statement.operands.size() > 1 ? std::get_if<stl::Name>(&statement.operands[0].value) : nullptr;
+    return name && stl::upper_case(name->text) == "NOT";
+  }
+
+  /// The operands from `first` on as they are written.
+  std::string written_from(const stl::Statement& statement, std::size_t first) const {
+    std::vector<std::string> written;
+    for (const stl::Operand& operand : std::span(statement.operands).subspan(first))
+      written.push_back(written_at(operand.position));
+    return fmt::format("{}", fmt::join(written, ", "));
+  }
+
+  /// `LD NOT I0.0`, as other controllers have it. True after a message.
+  bool has_not_as_operand(const Instruction& instruction, const stl::Statement& statement) {
+    if (!begins_with_not(statement)) return false;
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kNegated{
+        {{"LD", "LDN"}, {"A", "AN"}, {"O", "ON"}, {"LDI", "LDNI"}, {"AI", "ANI"}, {"OI", "ONI"}}};
+    const auto row = std::ranges::find(kNegated, instruction.mnemonic, [](const auto& each) { return each.first; });
+    const std::string rest = written_from(statement, 1);
+    error(statement.operands[0].position, fmt::format("{} takes no NOT", instruction.mnemonic),
+          row == kNegated.end() ? fmt::format("write NOT, then {} {}", instruction.mnemonic, rest)
+                                : fmt::format("write {} {}", row->second, rest));
+    return true;
+  }
+
+  /// `+I VW0, VW2, VW4`; parameters for a subroutine without any. True after a
+  /// message.
+  bool has_operands_of_another(const Instruction& instruction, const stl::Statement& statement) {
+    const std::size_t given = statement.operands.size();
+    if (instruction.structure == Structure::Call && given > 1) {
+      const std::string callee = written_at(statement.operands[0].position);
+      error(statement.operands[1].position, fmt::format("{} declares no parameters", callee),
+            fmt::format("write CALL {}; the subroutines of a listing have none, those of an export declare theirs in "
+                        "VAR_INPUT, VAR_IN_OUT and VAR_OUTPUT",
+                        callee));
+      return true;
+    }
+    const std::string steps = in_steps(instruction, statement);
+    if (steps.empty()) return false;
+    error(statement.operands.back().position,
+          fmt::format("{} takes {}, not {}", instruction.mnemonic, counted(instruction.rules().size()), given), steps);
+    return true;
   }
 
   /// `1,5` is two operands; if there is only room for one, it is a real number with a German comma.
@@ -395,10 +452,11 @@ class Checker {
     for (std::size_t i = 0; i < taken; ++i) placed[i].read = false;
     if (has_decimal_comma(instruction, statement) || has_comma_in_address(instruction, statement)) return false;
     if (has_letter_for_one(instruction, statement)) return false;
-    if (is_missing_block(instruction, statement)) return false;
+    if (is_missing_block(instruction, statement) || has_not_as_operand(instruction, statement)) return false;
     const stl::Block* called = called_block(instruction, statement);
     if (given != taken && !called) {
       if (is_two_statements(statement, taken) || has_blank_in_address(statement, taken)) return false;
+      if (has_operands_of_another(instruction, statement)) return false;
       const stl::Position at = given > taken ? statement.operands[taken].position : statement.position;
       error(at, fmt::format("{} takes {}, not {}", instruction.mnemonic, counted(taken), given),
             fmt::format("write {}", syntax(instruction)));
@@ -486,6 +544,7 @@ class Checker {
     const auto named = missing_callee(instruction, statement);
     if (!name && named) name = &*named;
     if (!name || !name->reason.starts_with("there is no")) return false;
+    if (std::ranges::find(diagnostics_, name->reason, &stl::Diagnostic::cause) != diagnostics_.end()) return true;
     if (instruction.structure == Structure::Attach) {
       error(statement.operands[0].position, name->reason, "give the file with its block too");
       return true;

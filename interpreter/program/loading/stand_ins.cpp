@@ -503,6 +503,41 @@ bool is_library_routine(std::string_view name) {
          });
 }
 
+namespace {
+
+/// A wizard of the programming software, and what the names of its routines begin with: `PID0_INIT`, `NET_EXE`.
+struct Wizard {
+  std::string_view prefix;
+  bool numbered;
+  std::string_view name;
+};
+constexpr std::array kWizards{
+    Wizard{"NET_EXE", false, "NETR/NETW wizard"},
+    Wizard{"HSC_INIT", false, "HSC wizard"},
+    Wizard{"PID", true, "PID wizard"},
+    Wizard{"POS", true, "position control wizard"},
+    Wizard{"PTO", true, "pulse output wizard"},
+    Wizard{"PWM", true, "pulse output wizard"},
+    Wizard{"MOD", true, "modem wizard"},
+    Wizard{"ETH", true, "Ethernet wizard"},
+    Wizard{"RCP", true, "recipe wizard"},
+    Wizard{"DAT", true, "data log wizard"},
+    Wizard{"ASI", true, "AS-i wizard"},
+    Wizard{"AXIS", true, "motion wizard (SMART)"},
+};
+
+const Wizard* wizard_of(std::string_view routine) {
+  const auto made = std::ranges::find_if(kWizards, [routine](const Wizard& wizard) {
+    if (!routine.starts_with(wizard.prefix)) return false;
+    const std::string_view rest = routine.substr(wizard.prefix.size());
+    const std::size_t digits = std::min(rest.find_first_not_of("0123456789X"), rest.size());
+    return wizard.numbered ? digits > 0 && rest.substr(digits).starts_with('_') : rest.empty();
+  });
+  return made == kWizards.end() ? nullptr : &*made;
+}
+
+}  // namespace
+
 bool may_need_stand_ins(const stl::ParseResult& program) {
   return std::ranges::any_of(program.source.lines, [](const stl::Line& line) {
     const auto* statement = std::get_if<stl::Statement>(&line);
@@ -522,6 +557,10 @@ MissingRoutine missing_routine(const stl::Name& name, const CpuModel& model) {
       return {fmt::format("{} is a routine of the {} library, which is in no export and has no stand-in here", shown,
                           library.name),
               std::string(kWriteYourOwn), fmt::format("library {}", library.name)};
+  if (const auto* const wizard = wizard_of(routine))
+    return {fmt::format("{}: the {} of Micro/WIN has made it", name.reason, wizard->name),
+            "its block is in the project: export it, too (File, Export), and give its file",
+            fmt::format("wizard {}", wizard->name)};
   return {name.reason,
           "give the file with its block too; the blocks of libraries are in no export: " + std::string(kWriteYourOwn),
           name.reason};

@@ -4,9 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <vector>
 
+#include "interpreter/model/boxes.hpp"
 #include "interpreter/program/operands/operands.hpp"
 #include "interpreter/stl/printer.hpp"
 
@@ -51,7 +53,65 @@ bool takes_all(const Instruction& instruction, const stl::Statement& statement, 
 
 std::string text_of(const stl::Operand& operand) { return operand.symbol.empty() ? stl::to_text(operand) : operand.symbol; }
 
+bool is_place(const stl::Operand& operand) {
+  return std::holds_alternative<stl::Address>(operand.value) || std::holds_alternative<stl::Indirect>(operand.value);
+}
+
+/// The low word of a double word: VW6 of VD4, AC0 of AC0. Empty for another operand.
+std::string low_word(const stl::Operand& operand) {
+  const auto* address = std::get_if<stl::Address>(&operand.value);
+  if (!address || (address->size != stl::Size::Double && address->area != "AC")) return {};
+  if (address->area == "AC") return stl::to_text(operand);
+  return fmt::format("{}W{}", address->area, address->number + 2);
+}
+
+std::uint32_t bytes_of(stl::Size size) { return size == stl::Size::Double ? 4 : size == stl::Size::Word ? 2 : 1; }
+
+/// Whether two operands surely have no byte in common.
+bool are_apart(const stl::Operand& a, const stl::Operand& b) {
+  if (!is_place(a) || !is_place(b)) return true;
+  const auto *first = std::get_if<stl::Address>(&a.value), *second = std::get_if<stl::Address>(&b.value);
+  return first && second &&
+         (first->area != second->area || first->number + bytes_of(first->size) <= second->number ||
+          second->number + bytes_of(second->size) <= first->number);
+}
+
+bool inputs_may_change_places(const Instruction& instruction) {
+  constexpr std::array<std::string_view, 16> kCommutative{"+I",   "+D",   "+R",  "*I",  "*D",  "*R",   "MUL",  "ANDB",
+                                                          "ANDW", "ANDD", "ORB", "ORW", "ORD", "XORB", "XORW", "XORD"};
+  return std::ranges::find(kCommutative, instruction.mnemonic) != kCommutative.end();
+}
+
 }  // namespace
+
+std::string in_steps(const Instruction& instruction, const stl::Statement& statement) {
+  const std::vector<BoxStep> steps = steps_with_output(instruction, statement.operands.size());
+  if (steps.size() != 2 || !is_place(statement.operands.back())) return {};
+  const stl::Operand &in1 = statement.operands.front(), &out = statement.operands.back();
+  const BoxStep &move = steps[0], &last = steps[1];
+  const auto place_of_out = std::ranges::find(last.operands, statement.operands.size() - 1) - last.operands.begin();
+  const Width of_out = last.instruction->operand[static_cast<std::size_t>(place_of_out)].width;
+  const bool widens = of_out != move.instruction->operand[1].width;
+  const std::string to = widens ? low_word(out) : text_of(out);
+  if (to.empty())
+    return fmt::format("write MOVW IN1 into the low word of OUT, then {} IN2, OUT", last.instruction->mnemonic);
+  const auto step = [&](std::size_t input) {
+    std::vector<std::string> operands;
+    for (const std::size_t number : last.operands)
+      operands.push_back(text_of(statement.operands[number + 1 == statement.operands.size() ? number : input]));
+    return fmt::format("{} {}", last.instruction->mnemonic, fmt::join(operands, ", "));
+  };
+  const bool has_second = statement.operands.size() > 2;
+  if (text_of(in1) == to) return fmt::format("write {}", step(1));
+  if (has_second && inputs_may_change_places(instruction) && text_of(statement.operands[1]) == to)
+    return fmt::format("write {}", step(0));
+  if (has_second && !are_apart(statement.operands[1], out)) {
+    const std::string in2 = text_of(statement.operands[1]);
+    return fmt::format("write {} {}{}OUT, then {} {}, OUT, with an OUT outside {}", move.instruction->mnemonic, text_of(in1),
+                       widens ? " into the low word of " : ", ", last.instruction->mnemonic, in2, in2);
+  }
+  return fmt::format("write {} {}, {}, then {}", move.instruction->mnemonic, text_of(in1), to, step(1));
+}
 
 std::string in_other_width(const Instruction& instruction, const stl::Statement& statement, const CpuModel& model) {
   const auto rules = instruction.rules();
