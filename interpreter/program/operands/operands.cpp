@@ -271,8 +271,10 @@ class Placing {
     }
     if (!names_width(address, *area)) {
       error(fmt::format("{} does not say whether it is a byte, word or double word", text()),
-            meant == Width::Bit ? bits_text(*area, address.number)
-                                : fmt::format("did you mean {}?", address_text(*area, meant, address.number, 0)));
+            address.number >= model_.size_of(*area)
+                ? fmt::format("{} memory is {}", address.area, range_text(model_, *area, meant))
+            : meant == Width::Bit ? bits_text(*area, Width::Byte, address.number)
+                                  : fmt::format("did you mean {}?", address_text(*area, meant, address.number, 0)));
       return {};
     }
     return area;
@@ -289,9 +291,12 @@ class Placing {
     return false;
   }
 
-  static std::string bits_text(Area area, std::uint32_t number) {
-    return fmt::format("its bits are {} to {}", address_text(area, Width::Bit, number, 0),
-                       address_text(area, Width::Bit, number, 7));
+  /// The byte at the highest address has the lowest bits.
+  static std::string bits_text(Area area, Width width, std::uint32_t number) {
+    const std::uint32_t last = number + bytes_of(width) - 1;
+    const std::string bits = fmt::format("its bits are {} to {}", address_text(area, Width::Bit, number, 0),
+                                         address_text(area, Width::Bit, last, 7));
+    return last == number ? bits : fmt::format("{}; bit 0 is {}", bits, address_text(area, Width::Bit, last, 0));
   }
 
   /// The parts of `wide` at `number`: `VB0 and VB1`, `VB0 to VB3`.
@@ -308,7 +313,7 @@ class Placing {
     if (rule_.counted != 0 && width != Width::Bit && rule_.width != Width::Bit)
       return fmt::format("{} works on {}s: {} is where {} begins", instruction_.mnemonic, name_of(rule_.width), fitting,
                          text());
-    if (rule_.width == Width::Bit) return bits_text(area, number);
+    if (rule_.width == Width::Bit) return bits_text(area, width, number);
     if (width == Width::Bit)
       return fmt::format("{} is {} to {}", fitting, address_text(area, Width::Bit, number, 0),
                          address_text(area, Width::Bit, number + bytes_of(rule_.width) - 1, 7));
@@ -437,6 +442,8 @@ class Placing {
     if (rule_.real && (upper == "NAN" || upper == "INF" || upper == "INFINITY"))
       return error(fmt::format("{} cannot be {}", of_instruction(), text()),
                    "a real is 0.0, or 1.175495E-38 to 3.402823E+38 or its negative");
+    if (std::ranges::find(diagnostics_, name.reason, &stl::Diagnostic::cause) != diagnostics_.end() && !name.reason.empty())
+      return {};  // its table has the message
     if (!name.reason.empty()) return error(name.reason);
     const bool constant = upper == "TRUE" || upper == "FALSE" || upper == "ON" || upper == "OFF";
     if (const auto meant = stl::look_alike_operand(name.text))
