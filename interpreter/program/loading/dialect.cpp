@@ -14,8 +14,8 @@
 namespace s7200 {
 namespace {
 
-enum class Dialect : std::uint8_t { Scl, Il, Melsec, Omron, Step7, Rockwell };
-constexpr std::size_t kDialects = 6;
+enum class Dialect : std::uint8_t { Scl, Il, Melsec, Omron, Step7, Rockwell, Step5 };
+constexpr std::size_t kDialects = 7;
 
 struct DialectText {
   std::string_view what, hint;
@@ -33,7 +33,9 @@ constexpr std::array<DialectText, kDialects> kTexts{{
     {"STL of STEP 7 for the S7-300 and S7-400",
      "the S7-200 has no accumulators to load with L and T: MOVB, MOVW and MOVD move a value, and TON is a timer"},
     {"a program for Allen-Bradley controllers",
-     "the STL of the S7-200 has LD, A and O for XIC, LDN, AN and ON for XIO, = for OTE, S and R for OTL and OTU; I0.0 for I:0/0"},
+     "the STL of the S7-200 has LD, A and O for XIC, LDN, AN and ON for XIO, = for OTE, S and R for OTL and OTU; I0.0 for "
+     "I:0/0"},
+    {"STL of STEP 5 for the S5", "the STL of the S7-200 has A for U, I and Q for E and A, TON for SE, and no : before it"},
 }};
 
 /// A line of code in capitals, without its comment and a semicolon at its end.
@@ -105,6 +107,26 @@ bool compares_accumulators(const CodeLine& line) {
          is_among(text.substr(sign), {"I", "D", "R"});
 }
 
+/// `U "Start"`: a rung of the S7-200 begins with LD, one of STEP 7 does not.
+bool begins_without_load(const CodeLine& line) { return is_among(line.word(0), {"U", "UN"}) && line.words.size() > 1; }
+
+bool has_quoted_name(const CodeLine& line) { return begins_without_load(line) && line.word(1).starts_with('"'); }
+
+/// `S A0.1`: on the S7-200 a count follows.
+bool sets_without_count(const CodeLine& line) { return is_among(line.word(0), {"S", "R"}) && line.words.size() == 2; }
+
+/// `I0.0`, `VW100`, `SMB30`: an address that no other make writes like this.
+bool is_own_address(std::string_view word) {
+  const std::size_t letters = std::min(word.find_first_of("0123456789"), word.size());
+  const std::string_view area = word.substr(0, letters), number = word.substr(letters);
+  const bool bit = number.size() > 2 && number[number.size() - 2] == '.' && number.back() <= '7';
+  if (bit) return is_among(area, {"I", "Q", "V", "M", "SM"}) && is_number(number);
+  return is_among(area, {"IB", "IW", "ID", "QB", "QW", "QD", "VB", "VW", "VD", "MB", "MW", "MD", "SMB", "SMW", "SMD"}) &&
+         !number.empty() && std::ranges::all_of(number, stl::is_digit);
+}
+
+bool has_own_address(const CodeLine& line) { return std::any_of(line.words.begin(), line.words.end(), is_own_address); }
+
 /// `X := Y + 1;`, but not a declaration with a value or a parameter of a call.
 bool assigns(const CodeLine& line) {
   const std::size_t sign = line.text.find(":=");
@@ -130,6 +152,34 @@ bool has_melsec_output(const CodeLine& line) {
   return line.word(0) == "OUT" && operand.size() > 1 && (operand.front() == 'Y' || line.word(2).starts_with('K')) &&
          stl::is_digit(operand[1]);
 }
+
+/// `MOV K5 D0`: a constant or a data register.
+bool has_melsec_operands(const CodeLine& line) {
+  return line.words.size() > 2 && std::any_of(line.words.begin() + 1, line.words.end(), [](std::string_view word) {
+           return (word.starts_with('K') || word.starts_with('D')) && word.size() > 1 && is_number(word.substr(1));
+         });
+}
+
+/// `M8000`: a special relay.
+bool has_special_relay(const CodeLine& line) {
+  return std::ranges::any_of(line.words, [](std::string_view word) {
+    return word.size() == 5 && word.starts_with("M8") && is_number(word.substr(1));
+  });
+}
+
+/// `LD CIO 0.00`
+bool has_omron_area(const CodeLine& line) { return line.word(1) == "CIO" && line.words.size() == 3; }
+
+/// `:U E 1.0`, `0002 :BE`, `:L KF +10`: a line of STEP 5.
+bool is_step5(std::string_view code) {
+  code = stl::trim(code.substr(std::min(code.find_first_not_of("0123456789"), code.size())));
+  if (!code.starts_with(':')) return false;
+  const std::vector<std::string> words = stl::split_words(stl::upper_case(code.substr(1)));
+  return !words.empty() &&
+         is_among(words[0], {"U", "UN", "O", "ON", "=", "S", "R", "L", "T", "BE", "BEA", "BEB", "SPA", "SPB", "U(", "O("});
+}
+
+bool is_line_of_step5(const CodeLine& line) { return is_step5(line.text); }
 
 /// `LD NOT 0.01`
 bool has_not_as_operand(const CodeLine& line) {
@@ -168,21 +218,32 @@ struct DialectSign {
   int weight;
 };
 
-constexpr int kEnough = 4, kWeightOfBlank = 2;
+constexpr int kEnough = 4;
 
 constexpr DialectSign kSigns[] = {
     {Dialect::Step7, has_step7_head, 4},
-    {Dialect::Step7, has_blank_in_address, kWeightOfBlank},
     {Dialect::Step7, has_step7_operand, 2},
     {Dialect::Step7, compares_accumulators, 2},
     {Dialect::Il, declares_at_address, 2},
     {Dialect::Scl, assigns, 4},
     {Dialect::Scl, is_condition, 2},
     {Dialect::Melsec, has_melsec_output, 4},
+    {Dialect::Melsec, has_melsec_operands, 1},
+    {Dialect::Melsec, has_special_relay, 3},
+    {Dialect::Omron, has_omron_area, 3},
+    {Dialect::Step5, is_line_of_step5, 2},
     {Dialect::Omron, has_not_as_operand, 3},
     {Dialect::Omron, has_function_number, 2},
     {Dialect::Rockwell, has_logix_rung, 4},
     {Dialect::Rockwell, has_file_address, 1},
+};
+
+/// Signs of STEP 7 in a text in which no line begins with LD.
+constexpr DialectSign kSignsWithoutLoad[] = {
+    {Dialect::Step7, has_blank_in_address, 2},
+    {Dialect::Step7, begins_without_load, 1},
+    {Dialect::Step7, has_quoted_name, 2},
+    {Dialect::Step7, sets_without_count, 2},
 };
 
 /// A word that a line begins with, with so many operands; -1: any number of them.
@@ -235,6 +296,8 @@ constexpr FirstWord kFirstWords[] = {
     {Dialect::Melsec, "PLF",                 1, 2}, {Dialect::Melsec, "FEND",               0, 3},
     {Dialect::Melsec, "SRET",                0, 2}, {Dialect::Melsec, "IRET",               0, 2},
     {Dialect::Melsec, "MOV",                 2, 1}, {Dialect::Melsec, "DMOV",               2, 2},
+    {Dialect::Melsec, "TMR",                 2, 3}, {Dialect::Omron, "ANDNOT",               1, 2},
+    {Dialect::Omron, "LDNOT",                1, 2}, {Dialect::Omron, "ORNOT",                1, 2},
     {Dialect::Melsec, "ZRST",                2, 2}, {Dialect::Melsec, "MC",                 2, 2},
     {Dialect::Melsec, "AND",                 1, 1}, {Dialect::Melsec, "OR",                 1, 1},
     {Dialect::Omron, "OUT",                  1, 1}, {Dialect::Omron, "TIM",                 2, 3},
@@ -267,6 +330,13 @@ bool is_load(const CodeLine& line) { return is_among(line.word(0), {"LD", "LDN"}
 struct Evidence {
   int weight = 0, strongest = 0;
   stl::Position first{};
+
+  void add(int more, const stl::Position& at) { add({more, more, at}); }
+  void add(const Evidence& more) {
+    if (more.weight > 0 && (weight == 0 || more.first.line < first.line)) first = more.first;
+    weight += more.weight;
+    strongest = std::max(strongest, more.strongest);
+  }
 };
 
 class Judge {
@@ -274,17 +344,24 @@ class Judge {
   void see(const CodeLine& line, const stl::Position& at) {
     own_ += is_own(line);
     loads_ = loads_ || is_load(line);
-    blanks_in_addresses_ += has_blank_in_address(line);
+    own_addresses_ += has_own_address(line);
+    lines_ += line.words.empty() ? 0 : 1;
+    declarations_ += declares_at_address(line);
     for (const DialectSign& sign : kSigns)
       if (sign.shows(line)) count(sign.dialect, sign.weight, at);
+    for (const DialectSign& sign : kSignsWithoutLoad)
+      if (sign.shows(line)) without_load_.add(sign.weight, at);
     const auto operands = static_cast<int>(line.words.size()) - 1;
     for (const FirstWord& row : kFirstWords)
       if (row.word == line.word(0) && (row.operands < 0 || row.operands == operands)) count(row.dialect, row.weight, at);
   }
 
   std::optional<stl::Diagnostic> verdict() {
-    Evidence& step7 = evidence_[static_cast<std::size_t>(Dialect::Step7)];
-    if (loads_) step7.weight -= kWeightOfBlank * blanks_in_addresses_;
+    if (declarations_ == lines_) return std::nullopt;  // a table of symbols
+    if (!loads_) of(Dialect::Step7).add(without_load_);
+    constexpr int kAgainstOwnAddress = 3;
+    for (const Dialect make : {Dialect::Melsec, Dialect::Omron, Dialect::Rockwell})
+      of(make).weight -= kAgainstOwnAddress * own_addresses_;
     const auto best = std::ranges::max_element(evidence_, {}, &Evidence::weight);
     constexpr int kAgainstOwn = 3;     // so often as many for another dialect as lines of the S7-200
     constexpr int kMoreThanAWord = 2;  // text has words such as AND and SET, too
@@ -296,29 +373,28 @@ class Judge {
   }
 
  private:
-  void count(Dialect dialect, int weight, const stl::Position& at) {
-    Evidence& evidence = evidence_[static_cast<std::size_t>(dialect)];
-    if (evidence.weight == 0) evidence.first = at;
-    evidence.weight += weight;
-    evidence.strongest = std::max(evidence.strongest, weight);
-  }
+  void count(Dialect dialect, int weight, const stl::Position& at) { of(dialect).add(weight, at); }
+  Evidence& of(Dialect dialect) { return evidence_[static_cast<std::size_t>(dialect)]; }
 
   std::array<Evidence, kDialects> evidence_{};
-  int own_ = 0, blanks_in_addresses_ = 0;
+  Evidence without_load_{};  // for STEP 7
+  int own_ = 0, own_addresses_ = 0, lines_ = 0, declarations_ = 0;
   bool loads_ = false;
 };
 
 /// Text of another product's programming software, and a sign of it.
 struct OtherProduct {
   std::string_view sign, what;
+  bool in_xml = true;
 };
 constexpr std::array kOtherProducts{
     OtherProduct{"LOGO!",
-                 "it is about LOGO!, not the S7-200; LOGO!Soft Comfort has no STL, so enter its blocks as STL by hand"},
+                 "it is about LOGO!, not the S7-200; LOGO!Soft Comfort has no STL, so enter its blocks as STL by hand",
+                 false},
     OtherProduct{"<SW.Blocks.", "it is a block of TIA Portal for the S7-1200 and S7-1500, not a program of the S7-200"},
     OtherProduct{"S7_Optimized_Access",
                  "it is a block of TIA Portal for the S7-1200 and S7-1500, not a program of the S7-200"},
-    OtherProduct{"http://www.plcopen.org/xml/",
+    OtherProduct{"www.plcopen.org/xml/",
                  "it is PLCopen XML, not STL of the S7-200; export the program as STL from Micro/WIN"},
     OtherProduct{"<RSLogix5000Content", "it is a project for Allen-Bradley controllers, not a program of the S7-200"},
 };
@@ -327,14 +403,6 @@ constexpr std::array kOtherProducts{
 bool is_logo_block(std::string_view line) {
   const std::size_t digits = line.find_first_not_of("0123456789", 1);
   return line.starts_with('B') && digits == 4 && line[digits] == '(' && line.find(')', digits) != line.npos;
-}
-
-/// `:U E 1.0`, `:BE`, `:L KF +10`: a line of STEP 5.
-bool is_step5(std::string_view code) {
-  if (!code.starts_with(':')) return false;
-  const std::vector<std::string> words = stl::split_words(stl::upper_case(code.substr(1)));
-  constexpr std::array kWords{"U", "UN", "O", "ON", "=", "S", "R", "L", "T", "BE", "BEA", "BEB", "SPA", "SPB", "U(", "O("};
-  return !words.empty() && std::ranges::find(kWords, words[0]) != kWords.end();
 }
 
 }  // namespace
@@ -363,6 +431,13 @@ std::optional<stl::Diagnostic> other_dialect(std::string_view text) {
                      static_cast<std::uint32_t>(std::max<std::size_t>(1, stl::count_characters(code.text)))});
   }
   return judge.verdict();
+}
+
+std::string_view why_xml_of_other_product(std::string_view text) {
+  if (!stl::trim(text).starts_with("<?xml")) return {};
+  const auto product = std::ranges::find_if(
+      kOtherProducts, [text](const OtherProduct& each) { return each.in_xml && text.find(each.sign) != text.npos; });
+  return product == kOtherProducts.end() ? std::string_view() : product->what;
 }
 
 std::string_view why_other_product(std::string_view text) {
