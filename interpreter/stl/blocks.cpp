@@ -12,6 +12,7 @@
 
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/block_words.hpp"
+#include "interpreter/stl/headings.hpp"
 #include "interpreter/stl/tables/data_block.hpp"
 
 namespace s7200::stl {
@@ -72,10 +73,15 @@ std::optional<Heading> chinese_heading(std::string_view line) {
   std::string_view text = trim(line);
   for (const std::string_view colon : {":", "："})
     if (text.ends_with(colon)) text = trim(text.substr(0, text.size() - colon.size()));
-  const auto row =
-      std::ranges::find_if(kChineseHeadings, [&](const ChineseHeading& each) { return text.ends_with(each.word); });
+  auto row = std::ranges::find_if(kChineseHeadings, [&](const ChineseHeading& each) { return text.ends_with(each.word); });
+  const bool name_first = row != kChineseHeadings.end();
+  if (!name_first)  // `中断程序 INT_0`
+    row = std::ranges::find_if(kChineseHeadings, [&](const ChineseHeading& each) {
+      return text.starts_with(each.word) && default_routine(trim(text.substr(each.word.size())));
+    });
   if (row == kChineseHeadings.end()) return std::nullopt;
-  const std::string_view name = trim(text.substr(0, text.size() - row->word.size()));
+  const std::string_view name =
+      trim(name_first ? text.substr(0, text.size() - row->word.size()) : text.substr(row->word.size()));
   const bool plain = std::ranges::all_of(name, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
   if (!plain || name.empty() != (row->kind == Block::Kind::Main)) return std::nullopt;
   return Heading{row->kind, name};

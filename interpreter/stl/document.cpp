@@ -189,11 +189,21 @@ bool is_page_number(std::string_view token) {
   return std::all_of(token.begin(), token.end(), [](char c) { return is_digit(c) || c == '-' || c == '/'; });
 }
 
+/// `12.05.2003`, `12/05/2003`, `14:22:11`: numbers with two signs of one kind between them, or one colon.
+bool is_date_or_time(std::string_view token) {
+  const std::size_t sign = token.find_first_not_of("0123456789");
+  if (sign == 0 || sign == token.npos || std::string_view(".-/:").find(token[sign]) == std::string_view::npos) return false;
+  const auto signs = std::ranges::count(token, token[sign]);
+  return is_digit(token.back()) && (signs == 2 || (signs == 1 && token[sign] == ':')) &&
+         std::ranges::all_of(token, [&](char c) { return is_digit(c) || c == token[sign]; });
+}
+
 /// `12`, `Page 2 of 3`, `Seite 2/3`, `Page 2`
 bool is_page_number(const std::vector<std::string_view>& words) {
   constexpr std::array<std::string_view, 6> kPages{"PAGE", "SEITE", "P\u00E1GINA", "PAGINA", "FOLIO", "SHEET"};
   constexpr std::array<std::string_view, 5> kOf{"OF", "VON", "DE", "SUR", "DI"};
   const bool named = std::ranges::find(kPages, upper_case(words.front())) != kPages.end();
+  if (words.size() <= 2 && std::ranges::all_of(words, is_date_or_time)) return true;
   if (!named)  // `2`, `2 / 3`
     return words.size() <= 3 && std::ranges::all_of(words, [](std::string_view word) { return is_page_number(word); });
   if (words.size() == 2) return is_page_number(words[1]);
@@ -616,7 +626,11 @@ class DocumentReader {
   }
 
   void collect_left_out(std::vector<std::uint32_t>& lines) const {
-    for (std::uint32_t number = 1; number <= readings_.size(); ++number) {
+    const auto is_code = [](const LineReading& reading) {
+      return reading.verdict == Verdict::Stl || reading.verdict == Verdict::Damaged;
+    };
+    const auto end = std::find_if(readings_.rbegin(), readings_.rend(), is_code).base();  // what follows is not inside
+    for (std::uint32_t number = 1; number <= static_cast<std::uint32_t>(end - readings_.begin()); ++number) {
       const LineReading& reading = readings_[number - 1];
       if (reading.inside && reading.verdict == Verdict::Prose) lines.push_back(number);
     }

@@ -1,5 +1,7 @@
 #include "interpreter/stl/headings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -28,6 +30,64 @@ constexpr std::array kHeadingWords{
     HeadingWord{"PROGRAM", {}},
     HeadingWord{"ROUTINE", {}},
 };
+
+/// Words that a heading begins with in other languages, in capitals; letters beyond ASCII as they are written. The longer of
+/// two comes first.
+struct RoutinePhrase {
+  std::string_view words;
+  Block::Kind kind;
+};
+constexpr std::array kRoutinePhrases{
+    RoutinePhrase{"HAUPTPROGRAMM", Block::Kind::Main},
+    RoutinePhrase{"PROGRAMME PRINCIPAL", Block::Kind::Main},
+    RoutinePhrase{"PROGRAMA PRINCIPAL", Block::Kind::Main},
+    RoutinePhrase{"PROGRAMMA PRINCIPALE", Block::Kind::Main},
+    RoutinePhrase{"主程序", Block::Kind::Main},
+    RoutinePhrase{"主程式", Block::Kind::Main},
+    RoutinePhrase{"UNTERPROGRAMM", Block::Kind::Subroutine},
+    RoutinePhrase{"SOUS-PROGRAMME", Block::Kind::Subroutine},
+    RoutinePhrase{"SOUS PROGRAMME", Block::Kind::Subroutine},
+    RoutinePhrase{"SUBRUTINA", Block::Kind::Subroutine},
+    RoutinePhrase{"SUB-ROTINA", Block::Kind::Subroutine},
+    RoutinePhrase{"SUBROTINA", Block::Kind::Subroutine},
+    RoutinePhrase{"SOTTOPROGRAMMA", Block::Kind::Subroutine},
+    RoutinePhrase{"子程序", Block::Kind::Subroutine},
+    RoutinePhrase{"子程式", Block::Kind::Subroutine},
+    RoutinePhrase{"INTERRUPTPROGRAMM", Block::Kind::Interrupt},
+    RoutinePhrase{"INTERRUPT-PROGRAMM", Block::Kind::Interrupt},
+    RoutinePhrase{"INTERRUPTROUTINE", Block::Kind::Interrupt},
+    RoutinePhrase{"INTERRUPT-ROUTINE", Block::Kind::Interrupt},
+    RoutinePhrase{"PROGRAMME D'INTERRUPTION", Block::Kind::Interrupt},
+    RoutinePhrase{"PROGRAMME D INTERRUPTION", Block::Kind::Interrupt},
+    RoutinePhrase{"ROUTINE D'INTERRUPTION", Block::Kind::Interrupt},
+    RoutinePhrase{"ROUTINE D INTERRUPTION", Block::Kind::Interrupt},
+    RoutinePhrase{"PROGRAMA DE INTERRUPCI\u00F3N", Block::Kind::Interrupt},
+    RoutinePhrase{"PROGRAMA DE INTERRUPCI\u00D3N", Block::Kind::Interrupt},
+    RoutinePhrase{"PROGRAMA DE INTERRUPCION", Block::Kind::Interrupt},
+    RoutinePhrase{"RUTINA DE INTERRUPCI\u00F3N", Block::Kind::Interrupt},
+    RoutinePhrase{"RUTINA DE INTERRUPCI\u00D3N", Block::Kind::Interrupt},
+    RoutinePhrase{"RUTINA DE INTERRUPCION", Block::Kind::Interrupt},
+    RoutinePhrase{"ROUTINE DI INTERRUPT", Block::Kind::Interrupt},
+    RoutinePhrase{"中断服务程序", Block::Kind::Interrupt},
+    RoutinePhrase{"中斷服務程序", Block::Kind::Interrupt},
+    RoutinePhrase{"中断子程序", Block::Kind::Interrupt},
+    RoutinePhrase{"中断程序", Block::Kind::Interrupt},
+    RoutinePhrase{"中斷程式", Block::Kind::Interrupt},
+    RoutinePhrase{"中断", Block::Kind::Interrupt},
+    RoutinePhrase{"中斷", Block::Kind::Interrupt},
+};
+
+/// The phrase that a text begins with as a word; null for all others.
+const RoutinePhrase* routine_phrase(std::string_view text) {
+  const auto begins = [text](const RoutinePhrase& row) {
+    const bool may =
+        !text.empty() && (text[0] == row.words[0] || (is_lower(text[0]) && text[0] - 'a' + 'A' == row.words[0]));
+    if (!may || upper_case(text.substr(0, row.words.size())) != row.words) return false;
+    return row.words.size() == text.size() || !is_letter(text[row.words.size()]);
+  };
+  const auto row = std::ranges::find_if(kRoutinePhrases, begins);
+  return row == kRoutinePhrases.end() ? nullptr : &*row;
+}
 
 std::optional<std::uint32_t> number_in(std::string_view digits) {
   std::uint32_t number = 0;
@@ -127,17 +187,31 @@ std::optional<RoutineName> routine_heading(std::string_view line) {
   const std::size_t from = code.find_first_not_of(kRules);
   if (from == std::string_view::npos || code.size() > kLongest || coil) return std::nullopt;
   const std::string_view plain = code.substr(from, code.find_last_not_of(kRules) + 1 - from);
-  if (!begins_like_heading(plain)) return std::nullopt;
+  const RoutinePhrase* const phrase = routine_phrase(plain);
+  if (!phrase && !begins_like_heading(plain)) return std::nullopt;
   std::string text = upper_case(plain);
+  if (phrase) {
+    const std::string_view head = words(phrase->kind).head;
+    text = fmt::format("{} {}", head.empty() ? kMainHeading : head, text.substr(phrase->words.size()));
+  }
   std::ranges::replace_if(
       text, [](char c) { return c == ':' || c == '(' || c == ')'; }, ' ');
   const std::vector<std::string> written = split_words(text);
   HeadingParts parts;
   for (const std::string& each : written) parts.add(part_of(each));
   const bool statement =
-      plain == code && written.size() == 2 && number_in(written[1]) &&
+      !phrase && plain == code && written.size() == 2 && number_in(written[1]) &&
       (written[0] == words(Block::Kind::Subroutine).head || written[0] == words(Block::Kind::Interrupt).head);
   return statement ? std::nullopt : parts.routine();
+}
+
+std::string_view name_in_heading(std::string_view line) {
+  const std::string_view code = trim(line.substr(0, line.find("//")));
+  if (!begins_like_heading(code) && !routine_phrase(code)) return {};
+  const std::string_view name = code.substr(std::min(code.find_last_of(" \t") + 1, code.size()));
+  const bool is_name = name.size() < code.size() && !is_digit(name.front()) &&
+                       std::ranges::all_of(name, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
+  return is_name ? name : std::string_view();
 }
 
 bool is_main_heading(const Statement& statement) { return statement.mnemonic == kMainHeading && statement.operands.empty(); }

@@ -29,6 +29,9 @@ std::optional<RoutineName> routine_heading(std::string_view line);
 /// The mnemonic of the statement that stands for the heading of the main program until put_main_program_first().
 inline constexpr std::string_view kMainHeading = "MAIN";
 
+/// The name in a line that begins as the heading of a routine and ends in one: `SUBROUTINE Init`. Empty for any other line.
+std::string_view name_in_heading(std::string_view line);
+
 bool is_main_heading(const Statement& statement);
 
 /// Reads like parse(), with the routines in the order of the text, and the heading of the main program as a statement.

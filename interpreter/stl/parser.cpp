@@ -24,8 +24,8 @@
 #include "interpreter/stl/headings.hpp"
 #include "interpreter/stl/text/encoding.hpp"
 #include "interpreter/stl/text/german_letters.hpp"
-#include "interpreter/stl/text/network_heading.hpp"
 #include "interpreter/stl/text/look_alikes.hpp"
+#include "interpreter/stl/text/network_heading.hpp"
 
 #ifdef BOOST_NO_EXCEPTIONS
 // Boost calls these instead of throwing; nothing here makes it throw.
@@ -391,6 +391,18 @@ constexpr std::array kForeignHeadings{
     ForeignHeading{"中断程序", "an interrupt routine", kInterruptZero},
 };
 
+/// The comments of a new project, as the editor and its printouts show them.
+constexpr std::array<std::string_view, 12> kDefaultComments{
+    "PROGRAM COMMENTS",   "PROGRAM COMMENT",    "PROGRAM TITLE COMMENTS", "SUBROUTINE COMMENTS",
+    "SUBROUTINE COMMENT", "INTERRUPT COMMENTS", "INTERRUPT COMMENT",      "INTERRUPT ROUTINE COMMENTS",
+    "POU COMMENTS",       "POU COMMENT",        "PROGRAMMKOMMENTARE",     "PROGRAMMKOMMENTAR"};
+
+bool is_default_comment(std::string_view line) {
+  const std::string_view text = trim(line);
+  return !text.empty() && std::string_view("PSIpsi").find(text[0]) != std::string_view::npos && text.size() <= 26 &&
+         std::ranges::find(kDefaultComments, upper_case(text)) != kDefaultComments.end();
+}
+
 /// These also stand before =: instructions without operands in a line with two statements, and the title of a block.
 constexpr std::array<std::string_view, 10> kBeforeCoils{"NOT", "EU",  "ED",  "ALD",  "OLD",
                                                         "LPS", "LRD", "LPP", "AENO", "TITLE"};
@@ -590,8 +602,12 @@ class LineReader {
     if (const auto keyword = block_keyword()) return read_block_line(*keyword);
     if (in_declarations) return true;
     if (const auto heading = routine_heading(text_))
-      add_heading(*heading);
-    else
+      add_heading(*heading, text_);
+    else if (const std::size_t colon = heading_before_statement(); colon > 0)
+      read_behind_heading(colon);
+    else if (is_default_comment(text_))
+      result_.source.lines.emplace_back(CommentLine{fmt::format(" {}", trim(text_)), number_});
+    else if (const std::string_view name = name_in_heading(text_); name.empty() || !report_called_name(name))
       read_line();
     return false;
   }
@@ -626,14 +642,31 @@ class LineReader {
     return name.starts_with("VAR");
   }
 
-  void add_heading(const RoutineName& routine) {
-    const std::size_t slashes = std::min(text_.find("//"), text_.size());
-    const std::string_view code = trim(text_.substr(0, slashes));
+  /// The place of the colon in `SBR_0: LD I0.1`; 0 in any other line.
+  std::size_t heading_before_statement() const {
+    const std::size_t colon = text_.substr(0, comment_start(text_)).find(':');
+    if (colon == std::string_view::npos || trim(text_.substr(colon + 1)).empty() || lines_.starts.size() > 1) return 0;
+    return routine_heading(text_.substr(0, colon)) && trim(text_.substr(0, colon)).find(' ') == std::string_view::npos
+               ? colon
+               : 0;
+  }
+
+  void read_behind_heading(std::size_t colon) {
+    add_heading(*routine_heading(text_.substr(0, colon)), text_.substr(0, colon));
+    std::string rest(text_);
+    std::fill_n(rest.begin(), colon + 1, ' ');
+    LineReader({rest, {}, lines_.starts}, result_).read(false);
+  }
+
+  /// The code of `line` is the heading.
+  void add_heading(const RoutineName& routine, std::string_view line) {
+    const std::size_t slashes = std::min(line.find("//"), line.size());
+    const std::string_view code = trim(line.substr(0, slashes));
     const Position at = position(Range(code.data(), code.data() + code.size()));
     const std::string_view head = words(routine.kind).head;
     Statement heading{std::string(head.empty() ? kMainHeading : head), at, {}, {}};
     if (!head.empty()) heading.operands.push_back({Integer{routine.number}, at});
-    if (slashes < text_.size()) heading.comment = trim_end(text_.substr(slashes + 2));
+    if (slashes < line.size()) heading.comment = trim_end(line.substr(slashes + 2));
     result_.source.lines.emplace_back(std::move(heading));
   }
 
@@ -794,7 +827,7 @@ class LineReader {
     }
     if (bytes.size() != 1 && bytes.size() != 2 && bytes.size() != 4) {
       return refuse(text, fmt::format("an ASCII constant cannot have {} characters", bytes.size()),
-                    "write 1 character for a byte, 2 for a word or 4 for a double word");
+                    "write 1 character for a byte, 2 for a word or 4 for a double word; a string is written \"abc\"");
     }
     Integer integer{0, Integer::Form::Ascii, static_cast<std::uint8_t>(bytes.size())};
     for (const char c : bytes) integer.value = integer.value << 8 | static_cast<unsigned char>(c);
@@ -865,6 +898,7 @@ class LineReader {
     if (where == end() || *where != ':' || name.data() + name.size() != where) return false;
     const std::string_view after = trim(std::string_view(where + 1, static_cast<std::size_t>(end() - where) - 1));
     const std::string_view mnemonic = after.substr(0, after.find_first_of(" \t"));
+    if (report_called_name(name)) return true;
     if (name.find_first_of(" \t,=") != name.npos || std::ranges::any_of(mnemonic, is_lower)) return false;
     if (!after.empty() && (std::ranges::none_of(after, is_digit) || std::ranges::none_of(name, is_digit)))
       return false;  // `Example: Transmit`, `LD: I0.0`
@@ -873,6 +907,25 @@ class LineReader {
     report(position(Range(name.data(), name.data() + name.size())),
            fmt::format("{}: is a label of another language", shortened(name)),
            fmt::format("write LBL {0} in a line of its own; JMP {0} jumps there", number), "labels of another language");
+    return true;
+  }
+
+  /// Reports `Init:` in a listing with `CALL Init`. Returns true after a message.
+  bool report_called_name(std::string_view name) {
+    const std::string capitals = upper_case(name);
+    const auto starts = [&](const std::string& line) {
+      const std::vector<std::string> words = split_words(upper_case(line.substr(0, comment_start(line))));
+      return words.size() > 1 && (words[0] == "CALL" || words[0] == "ATCH") &&
+             words[1].substr(0, words[1].find(',')) == capitals;
+    };
+    const auto call = std::ranges::find_if(result_.source.text, starts);
+    if (call == result_.source.text.end()) return false;
+    const bool calls = upper_case(trim(*call)).starts_with("CALL");
+    report(position(Range(name.data(), name.data() + name.size())),
+           fmt::format("{} is the name of {}, which a listing numbers", shortened(name),
+                       calls ? "a subroutine" : "an interrupt routine"),
+           calls ? "write SBR_0 in a line of its own, and CALL SBR_0" : "write INT_0 in a line of its own, and ATCH INT_0",
+           fmt::format("there is no {} {}", calls ? "subroutine" : "interrupt routine", shortened(name)));
     return true;
   }
 

@@ -594,6 +594,20 @@ class PageReader {
   bool is_heading_here(std::size_t at, const NetworkHeading& heading, std::uint32_t number, std::uint32_t last) const {
     constexpr std::size_t kLongestTitle = 60;
     if (number == last + 1 && heading.title.size() <= kLongestTitle && !heading.title.ends_with('.')) return true;
+    return is_followed_by_statement(at);
+  }
+
+  /// Whether the title of a network is a statement in the same line. `Stop` and `Call pump` are none where the network
+  /// begins below them.
+  bool is_statement_beside(std::size_t at, std::string_view title) const {
+    if (!is_statement(title)) return false;
+    const std::string_view first = title.substr(0, title.find_first_of(" \t"));
+    const bool may_be_words =
+        std::ranges::none_of(title, is_digit) && (first.size() == title.size() || std::ranges::any_of(first, is_lower));
+    return !may_be_words || !is_followed_by_statement(at);
+  }
+
+  bool is_followed_by_statement(std::size_t at) const {
     const auto says_something = [](const Row& row) { return !trim(code_of(row.text)).empty(); };
     const auto next = std::find_if(rows_.begin() + static_cast<std::ptrdiff_t>(at) + 1, rows_.end(), says_something);
     return next != rows_.end() && is_statement(next->text);
@@ -612,7 +626,7 @@ class PageReader {
       const std::string_view digits = heading ? heading->number : std::string_view(words[1]);
       std::uint32_t number = 0;
       std::from_chars(digits.data(), digits.data() + digits.size(), number);
-      const bool is_one = own || ((heading->framed || !is_statement(heading->title)) &&
+      const bool is_one = own || ((heading->framed || !is_statement_beside(i, heading->title)) &&
                                   (heading->sure || is_heading_here(i, *heading, number, last)));
       if (!is_one) continue;
       last = number;

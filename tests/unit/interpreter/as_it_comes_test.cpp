@@ -69,6 +69,21 @@ TEST(AsItComes, SignsOfTheLanguageAreNoComments) {
   EXPECT_EQ(program("1;LD;SM0.1;first scan\n2;=;Q0.0;lamp\n"), program("LD SM0.1 //first scan\n= Q0.0 //lamp\n"));
 }
 
+TEST(AsItComes, TitlesThatAreInstructionWordsAreComments) {
+  for (const std::string title : {"Stop", "End", "STOP", "Call pump"})
+    for (const std::string heading : {"Network 2 ", "NETWORK 2: ", "Netzwerk 2 "})
+      EXPECT_EQ(program("LD I0.1\n= Q0.1\n" + heading + title + "\nLD I0.0\n= Q0.0\n"),
+                program("LD I0.1\n= Q0.1\nNETWORK 2 // " + title + "\nLD I0.0\n= Q0.0\n"))
+          << heading << title;
+  EXPECT_EQ(read("LD I0.1\n= Q0.1\nNETWORK 2 LD Start\nA Stop\n= Q0.0\n").parsed.diagnostics.size(), 1U);
+}
+
+TEST(AsItComes, ADateBelowAPageNumberIsLeftOut) {
+  for (const std::string row : {"12.05.2003 14:22:11", "2003-05-12", "14:22"})
+    EXPECT_EQ(program("LD I0.0\n= Q0.0\nPage 2 of 2\n" + row + "\nLD I0.1\n= Q0.1\n"),
+              program("LD I0.0\n= Q0.0\nLD I0.1\n= Q0.1\n"));
+}
+
 TEST(AsItComes, TitlesOfNetworksAfterASignAreComments) {
   for (const std::string title : {": Start", " - Start", " – Start", ". Start", " (Start)", " -- Start"}) {
     const std::string text = program("Network 1" + title + "\nLD I0.0\n= Q0.0\n");

@@ -237,6 +237,10 @@ TEST(Document, WhatIsClearlyTextInAListingIsLeftOutAndCounted) {
     EXPECT_EQ(statements(result.source).size(), 4U) << line;
   }
   EXPECT_TRUE(read(article("")).left_out.empty());
+  EXPECT_TRUE(
+      read("Hi all,\n\nI have this program and it does not work:\n\nLD SM0.1\nMOVB 16#09, SMB30\nENI\nLD I0.0\n= Q0.0\n"
+           "\nAny help? Thanks\nBob\n")
+          .left_out.empty());
   EXPECT_TRUE(read(kSheet).left_out.empty()) << "headings between routines are not in a listing";
 }
 

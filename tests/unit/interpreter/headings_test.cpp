@@ -156,22 +156,54 @@ TEST(Headings, ARoutineThatIsMissingIsNamedByItsNumber) {
 }
 
 TEST(Headings, ARoutineWhoseHeadingCouldNotBeReadIsNotMissing) {
-  for (const std::string heading : {"\u4E2D\u65AD\u7A0B\u5E8FINT_0", "INTERRUPTPROGRAMM INT_0",
-                                    "Interrupt-Programm 0:", "RUTINA DE INTERRUPCI\u00D3N INT_0",
-                                    "PROGRAMME D'INTERRUPTION 0", "INT_0 (Takt", "INTERRUPT_BLOK Takt:INT0"}) {
+  for (const std::string heading : {"INTERRUPTPROGRAMM Takt, INT_0", "INT_0 (Takt", "INTERRUPT_BLOK Takt:INT0"}) {
     const std::string said = errors(checked("LD SM0.1\nATCH INT_0, 10\nENI\n" + heading + "\nLD SM0.0\nINCW VW0\n"));
     EXPECT_TRUE(said.starts_with("4: ")) << said;
     EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
   }
-  for (const std::string heading : {"UNTERPROGRAMM 1", "Sous-programme 1", "\u5B50\u7A0B\u5E8F 1", "Subrutina SBR_1"}) {
-    const std::string said = errors(checked("LD SM0.0\nCALL SBR_1\n" + heading + "\nLD SM0.0\nINCW VW0\n"));
-    EXPECT_TRUE(said.starts_with("3: ")) << said;
-    EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
+}
+
+TEST(Headings, OfOtherLanguagesAreRead) {
+  for (const std::string heading :
+       {"\u4E2D\u65AD\u7A0B\u5E8FINT_0", "\u4E2D\u65AD\u7A0B\u5E8F INT_0",
+        "\u4E2D\u65AD"
+        "0",
+        "INTERRUPTPROGRAMM INT_0", "Interrupt-Programm 0:", "RUTINA DE INTERRUPCI\u00D3N INT_0",
+        "programa de interrupci\u00F3n INT_0", "PROGRAMME D'INTERRUPTION 0", "Routine d interruption INT_0"}) {
+    const CheckResult result = checked("LD SM0.1\nATCH INT_0, 10\nENI\n" + heading + "\nLD SM0.0\nINCW VW0\n");
+    EXPECT_TRUE(result.program) << heading << '\n' << errors(result);
+  }
+  for (const std::string heading : {"UNTERPROGRAMM 1", "Sous-programme SBR_1", "\u5B50\u7A0B\u5E8F 1", "Subrutina SBR_1"}) {
+    const CheckResult result = checked("LD SM0.0\nCALL SBR_1\n" + heading + "\nLD SM0.0\nINCW VW0\n");
+    EXPECT_TRUE(result.program) << heading << '\n' << errors(result);
+  }
+  for (const std::string heading : {"Hauptprogramm", "Programme principal", "PROGRAMA PRINCIPAL (OB1)"}) {
+    const CheckResult result = checked("INT_0\nLD SM0.0\nINCW VW2\n" + heading + "\nLD SM0.1\nATCH INT_0, 10\nENI\n");
+    EXPECT_TRUE(result.program) << heading << '\n' << errors(result);
   }
 }
 
+TEST(Headings, MayStandBeforeTheirFirstStatement) {
+  const CheckResult result = checked("MAIN: LD SM0.1\nCALL SBR_0\nSBR_0: LD I0.1 // in\n= Q0.1\n");
+  ASSERT_TRUE(result.program) << errors(result);
+  EXPECT_EQ(mnemonics(result), (std::vector<std::string>{"LD", "CALL", "MEND", "SBR", "LD", "=", "RET"}));
+}
+
+TEST(Headings, ANameThatIsCalledIsNoLabel) {
+  for (const std::string heading : {"Init:", "Init: LD I0.1", "SUBROUTINE Init", "Unterprogramm Init"})
+    EXPECT_EQ(errors(checked("LD SM0.1\nCALL Init\n" + heading + "\n")),
+              "3: Init is the name of a subroutine, which a listing numbers\n")
+        << heading;
+}
+
+TEST(Headings, TheCommentsOfANewProjectAreComments) {
+  const CheckResult result =
+      checked("PROGRAM COMMENTS\nNETWORK 1\nLD SM0.0\nCALL SBR_0\nSBR_0\nSUBROUTINE COMMENTS\nNETWORK 1\nLD I0.0\n= Q0.0\n");
+  EXPECT_TRUE(result.program) << errors(result);
+}
+
 TEST(Headings, ARoutineThatNoUnreadLineMentionsIsMissing) {
-  EXPECT_EQ(errors(checked("LD SM0.0\nCALL 1\nATCH 3, 10\nXYZ 13, VB1\nINTERRUPTPROGRAMM 13\n")),
+  EXPECT_EQ(errors(checked("LD SM0.0\nCALL 1\nATCH 3, 10\nXYZ 13, VB1\nINTERRUPTPROGRAMM Takt 13\n")),
             "2: subroutine 1 is missing (compile rule 0087)\n3: interrupt routine 3 is missing (compile rule 0087)\n"
             "4: unknown instruction 'XYZ'\n"
             "5: INTERRUPTPROGRAMM is the heading of an interrupt routine in another form\n");
