@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -394,7 +396,7 @@ class SymbolTableReader {
  private:
   void read_row(std::string_view line) {
     const Cells cells = cells_of(line, separator_);
-    if (filled(cells) <= 1) return;  // the heading of a table, or a name without an address: unknown if it is used
+    if (filled(cells) <= 1) return read_typed_row(line);
     if (const auto found = headings(cells)) {
       headed_ = found;
       return;
@@ -407,6 +409,21 @@ class SymbolTableReader {
       columns->after_comment = Columns::kToTheEnd;
     }
     add(cells, *columns, line);
+  }
+
+  /// A row with blanks between its cells, as someone adds it to an exported table, or a name alone. Other lines are headings
+  /// of tables and pages.
+  void read_typed_row(std::string_view line) {
+    const auto words = parts_of(line, " ");
+    if (!headed_ || words.empty() || !is_name(words[0])) return;
+    const Cells cells = symbol_among(words);
+    if (!cells.empty() && (is_address(cells[1].text) || is_known(cells[0].text))) return add(cells, {}, line);
+    if (words.size() == 1) return add_without_address({cell_of(words[0])}, line);
+    if (may_be_value(words[1]) && !value_of(words[1]).why().empty()) add({cell_of(words[0]), cell_of(words[1])}, {}, line);
+  }
+
+  bool is_known(std::string_view name) const {
+    return std::ranges::find(result_.source.symbols, name, &Symbol::name) != result_.source.symbols.end();
   }
 
   /// Whether the columns fit the cells: some tables have more columns than headings, empty ones on the left.
@@ -424,10 +441,13 @@ class SymbolTableReader {
       result_.source.symbols.push_back({name.text, *std::move(meant), position(name, line), comment_of(cells, columns)});
       return;
     }
-    if (!value)
-      return error(position(address, line),
-                   value.why().empty() ? fmt::format("{} is not an address", shortened(address.text)) : value.why(),
-                   "a row of a symbol table is a name, an address or a constant, and perhaps a comment");
+    if (!value) {
+      error(position(address, line),
+            value.why().empty() ? fmt::format("{} is not an address", shortened(address.text)) : value.why(),
+            "a row of a symbol table is a name, an address or a constant, and perhaps a comment",
+            why_without_address(name.text));
+      return add_without_address(cells, line);
+    }
     if (name.text.empty())
       return error(position(address, line), fmt::format("{} has no name", shortened(address.text)),
                    "a row of a symbol table is a name, an address and perhaps a comment");
@@ -435,7 +455,14 @@ class SymbolTableReader {
         other && !std::holds_alternative<Name>(*other) && !may_be_name(*other, name.text))
       return error(position(name, line), fmt::format("{} is an address or a constant, not a name", shortened(name.text)),
                    "give the symbol a name of its own: in the program, this would always be the address or the constant");
+    forget_without_address(name.text);
     result_.source.symbols.push_back({name.text, *std::move(value), position(name, line), comment_of(cells, columns)});
+  }
+
+  /// A name that stood alone before was a title.
+  void forget_without_address(std::string_view name) {
+    if (!without_address_.contains(name)) return;
+    std::erase_if(result_.source.symbols, [name](const Symbol& symbol) { return symbol.name == name && !symbol.value; });
   }
 
   /// What a cell was meant for, after an error about the slip: `Q0.O`, `I0,1`. The symbol is known then.
@@ -470,7 +497,9 @@ class SymbolTableReader {
   /// Micro/WIN lets a name have no address as long as nothing uses it.
   void add_without_address(const Cells& cells, std::string_view line) {
     const auto name = std::ranges::find_if(cells, [](const Cell& c) { return is_name(c.text); });
-    if (name != cells.end()) result_.source.symbols.push_back({name->text, std::nullopt, position(*name, line), {}});
+    if (name == cells.end() || is_known(name->text)) return;
+    without_address_.insert(name->text);
+    result_.source.symbols.push_back({name->text, std::nullopt, position(*name, line), {}});
   }
 
   Position position(const Cell& cell, std::string_view line) const {
@@ -479,14 +508,15 @@ class SymbolTableReader {
             static_cast<std::uint32_t>(std::max<std::size_t>(1, count_characters(cell.place)))};
   }
 
-  void error(const Position& at, std::string message, std::string hint) {
-    result_.diagnostics.push_back({Severity::Error, at, std::move(message), std::move(hint)});
+  void error(const Position& at, std::string message, std::string hint, std::string cause = {}) {
+    result_.diagnostics.push_back({Severity::Error, at, std::move(message), std::move(hint), std::move(cause)});
   }
 
   Separator separator_;
   ParseResult result_;
   std::uint32_t number_ = 0;
   std::optional<Columns> headed_;
+  std::set<std::string, std::less<>> without_address_{};
 };
 
 }  // namespace
@@ -533,6 +563,8 @@ bool is_head_of_symbols(std::string_view line) {
                              [&](Separator separator) { return headings(cells_of(line, separator)).has_value(); });
 }
 
+std::string why_without_address(std::string_view name) { return fmt::format("symbol {} has no address", shortened(name)); }
+
 ParseResult read_symbol_table(std::string_view text, std::string name) {
   return SymbolTableReader(text, std::move(name)).result();
 }
@@ -546,7 +578,8 @@ bool is_status_chart(std::string_view text) {
   };
   // Blanks alone are between the words of any text.
   const auto is_row = [](const Cells& cells, Separator separator) {
-    if (cells.size() < 2) return false;
+    if (cells.size() < 2 || cells[0].text.find('\t') != std::string::npos || parts_of(cells[0].text, "  ").size() > 1)
+      return false;  // a comma in a comment
     const bool has_format = separator == Separator::Blanks ? is_format(cells[1].text) && is_address(cells[0].text)
                                                            : std::any_of(cells.begin() + 1, cells.end(),
                                                                          [](const Cell& c) { return is_format(c.text); });
@@ -557,13 +590,12 @@ bool is_status_chart(std::string_view text) {
     const std::string capitals = heading_of(line);
     return has_any(kFormats, capitals) || has_any(kFormatHeadings, capitals);
   };
-  if (std::ranges::none_of(lines, may_have_format)) return false;
+  if (std::ranges::none_of(lines, may_have_format) || std::ranges::any_of(lines, is_head_of_symbols)) return false;
   const Separator separator =
       separator_of(lines, [&](const Cells& cells, Separator by) { return has_chart_headings(cells) || is_row(cells, by); });
   std::size_t rows = 0, other = 0;
   for (const std::string_view line : lines) {
     const Cells cells = cells_of(line, separator);
-    if (headings(cells)) return false;
     if (rows + other == 0 && has_chart_headings(cells)) return true;
     ++(is_row(cells, separator) ? rows : other);
   }

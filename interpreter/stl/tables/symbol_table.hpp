@@ -21,6 +21,10 @@ bool is_head_of_symbols(std::string_view line);
 
 ParseResult read_symbol_table(std::string_view text, std::string name);
 
+/// `symbol Pump has no address`: of a name that its table has without one. It is the cause of the error about a wrong
+/// address.
+std::string why_without_address(std::string_view name);
+
 /// Whether it is a status chart: addresses with formats and values, of which nothing is part of a program. A table with
 /// headings for a symbol and its address is none.
 bool is_status_chart(std::string_view text);

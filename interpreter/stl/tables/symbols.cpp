@@ -14,6 +14,7 @@
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/headings.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/stl/tables/symbol_table.hpp"
 #include "interpreter/stl/tables/system_symbols.hpp"
 #include "interpreter/stl/text/plain_text.hpp"
 
@@ -177,7 +178,7 @@ class Resolver {
       name->reason = fmt::format("#{} is not declared in its block", shortened(written.name));
     } else if (const Symbol* symbol = symbols_.find(written.name)) {
       if (!symbol->value)
-        name->reason = fmt::format("symbol {} has no address", shortened(symbol->name));
+        name->reason = why_without_address(symbol->name);
       else if (std::holds_alternative<Name>(*symbol->value))
         name->reason = fmt::format("{} is a block, not an address", shortened(symbol->name));
       else

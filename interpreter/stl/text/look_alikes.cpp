@@ -60,6 +60,12 @@ bool is_operand(const std::string& word, bool all_letters) {
   return !all_letters || (address && address->size != Size::None);
 }
 
+/// `I0.9`: the first letter is that of inputs, not a 1.
+bool begins_as_input(std::string_view word) {
+  const std::size_t number = word.find_first_not_of("0123456789", 1);
+  return (word.starts_with('I') || word.starts_with('i')) && number > 1 && (number == word.npos || word[number] == '.');
+}
+
 /// The digit that a letter was probably meant for; 0 for other letters.
 char digit_for(char letter) {
   if (letter == 'O' || letter == 'o') return '0';
@@ -88,6 +94,7 @@ std::optional<LookAlike> look_alike_operand(std::string_view word) {
   if (!latin->wrong.empty() && is_operand(latin->meant, all_letters)) return latin;
   // The longest area is tried first: VB1O is VB10.
   for (std::size_t letters = std::min<std::size_t>(5, latin->meant.size()); letters-- > 0;) {
+    if (letters == 0 && begins_as_input(latin->meant)) break;
     auto meant = with_digits(latin->meant, letters);
     if (meant && is_operand(meant->meant, all_letters)) return meant;
   }

@@ -186,6 +186,38 @@ TEST(SymbolTable, AnAddressThatIsWrongIsNamedInARowWithBlanksToo) {
   EXPECT_EQ(table.diagnostics[0].position, (Position{2, 6, 4}));
 }
 
+TEST(SymbolTable, ACommaInACommentMakesNoStatusChartOfIt) {
+  for (const std::string table : {"Symbol\tAddress\tComment\nButton\tI0.0\tgreen, real\nLamp\tQ0.0\t\n",
+                                  "Button\tI0.0\tgreen, real\nLamp\tQ0.0\tred, hex\n",
+                                  "Symbol  Address  Comment\nButton  E0.0  Taster, hex\nLamp    A0.0  rot\n"}) {
+    EXPECT_FALSE(is_status_chart(table)) << table;
+    EXPECT_EQ(file(table, "t").kind, SourceKind::SymbolTable) << table;
+  }
+}
+
+TEST(SymbolTable, ARowTypedWithBlanksIsRead) {
+  EXPECT_EQ(symbols("Symbol\tAddress\nButton\tI0.0\nLamp Q0.0 red\nPage 2\nPump\tQ0.1\n"),
+            (Lines{"Button=I0.0", "Lamp=Q0.0 red", "Pump=Q0.1"}));
+  EXPECT_EQ(symbols("Symbol\tAddress\nButton\tI0.0\nLamp\nPump\nPump\tQ0.1\n"),
+            (Lines{"Button=I0.0", "Lamp=", "Pump=Q0.1"}));
+  EXPECT_EQ(said("LD SM0.0\nMOVW Speed, VW2\nMEND\n", "Symbol\tAddress\nSpeed\tVW100\n\nSpeed 7\n"),
+            Lines{"t.txt:4:1: error: Speed is defined twice; it is first defined in line 2"});
+}
+
+TEST(SymbolTable, AnAddressThatCannotBeIsSaidOnce) {
+  const std::string row = "a row of a symbol table is a name, an address or a constant, and perhaps a comment";
+  EXPECT_EQ(said("LD Button\n= Q0.0\nMEND\n", "Symbol\tAddress\nButton\tI0.9\n"),
+            Lines{"t.txt:2:8: error: the bits of a byte are 0 to 7; " + row});
+  EXPECT_EQ(said("LD I0.0\n= Pump\nMEND\n", "Symbol\tAddress\nButton\tI0.0\nPump Q0.9 blue\n"),
+            Lines{"t.txt:3:6: error: the bits of a byte are 0 to 7; " + row});
+  EXPECT_EQ(said("LD I0.0\n= Lamp\nMEND\n", "Symbol\tAddress\nButton\tI0.0\nLamp\n"),
+            Lines{"p.awl:2:3: error: symbol Lamp has no address"});
+}
+
+TEST(SymbolTable, HasDeclarationsWithTheirAddresses) {
+  EXPECT_EQ(file("Button AT %I0.0 : BOOL;\nLamp AT %Q0.0 : BOOL;\n", "t").kind, SourceKind::SymbolTable);
+}
+
 TEST(StatusChart, HasFormatsAndValuesAndNoColumnOfSymbols) {
   for (const std::string chart : {
            "Address\tFormat\tCurrent Value\tNew Value\n",
