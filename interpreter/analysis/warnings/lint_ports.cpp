@@ -383,13 +383,14 @@ std::string_view instead_of(Effect first, Effect second) {
                                     : "execute the next XMT when all characters are sent";
 }
 
+/// `when` is empty for what is always refused.
 void warn_of_busy_port(const Program& program, std::size_t number, std::uint32_t first, std::uint32_t second,
-                       std::string_view how, stl::Diagnostics& diagnostics) {
+                       std::string_view how, stl::Diagnostics& diagnostics, std::string_view when = {}) {
   const Instruction &earlier = *program.ops[first].instruction, &refused = *program.ops[second].instruction;
   diagnostics.push_back(
       warn(Warning::PortBusy, place(program, second),
-           fmt::format("{} is refused with error {:04X}: {} of line {} {}", refused.mnemonic,
-                       static_cast<std::uint16_t>(kPorts[number].busy), earlier.mnemonic, line(program, first), how),
+           fmt::format("{} is refused with error {:04X}{}: {} of line {} {}", refused.mnemonic,
+                       static_cast<std::uint16_t>(kPorts[number].busy), when, earlier.mnemonic, line(program, first), how),
            std::string(instead_of(earlier.effect, refused.effect)), fmt::format("port {} busy", number)));
 }
 
@@ -484,7 +485,7 @@ void find_xmt_while_rcv_waits(const Facts& facts, std::size_t number, stl::Diagn
       warn_of_busy_port(program, number, *rcv, i, "is executed again after each message, so that one always waits",
                         diagnostics);
     else if (is_executed_by_inputs_only(program, i))
-      warn_of_busy_port(program, number, *rcv, i, "waits until a message has come, whatever this rung does", diagnostics);
+      warn_of_busy_port(program, number, *rcv, i, "waits for one", diagnostics, " while no message has come");
   }
 }
 

@@ -403,6 +403,15 @@ TEST(PortBusy, IsAnXmtThatInputsAloneStartWhileAnRcvWaits) {
             "9 port-busy\n");
 }
 
+TEST(PortBusy, OfAnXmtThatInputsStartSaysThatAMessageMayHaveCome) {
+  const auto parsed =
+      stl::parse(receiving("RCV VB100, 0\nLD I0.0\nEU\nXMT VB0, 0\nLD I0.1\nEU\nRCV VB100, 0\nMEND\n"), "p.stl");
+  const CheckResult result = check(parsed, cpu224(), default_times(cpu224()));
+  ASSERT_EQ(result.diagnostics.size(), 1U);
+  EXPECT_EQ(result.diagnostics[0].message,
+            "XMT is refused with error 0009 while no message has come: RCV of line 6 waits for one");
+}
+
 TEST(PortBusy, IsNotAnXmtThatMayFindThePortFree) {
   for (const char* rest :
        {"LD I0.0\nEU\nXMT VB0, 0\nLD I0.1\nRCV VB100, 0\nMEND\n",
