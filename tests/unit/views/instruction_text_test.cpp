@@ -38,10 +38,11 @@ TEST(InstructionText, SaysTheResolutionAndRetentionOfTimersByNumber) {
   const TimeTable times = default_times(cpu214());
   const std::string on_delay = explain(*find_instruction("TON"), times);
   for (const char* part : {"1 ms       T32, T96\n", "10 ms      T33 to T36, T97 to T100\n",
-                           "100 ms     T37 to T63, T101 to T255\n", "kept       T0 to T31, T64 to T95 while the power is off"})
+                           "100 ms     T37 to T63, T101 to T255\n", "kept       none while the power is off"})
     EXPECT_NE(on_delay.find(part), std::string::npos) << part << " in\n" << on_delay;
   const std::string retentive = explain(*find_instruction("TONR"), times);
-  for (const char* part : {"1 ms       T0, T64\n", "10 ms      T1 to T4, T65 to T68\n", "100 ms     T5 to T31, T69 to T95\n"})
+  for (const char* part : {"1 ms       T0, T64\n", "10 ms      T1 to T4, T65 to T68\n", "100 ms     T5 to T31, T69 to T95\n",
+                           "kept       T0 to T31, T64 to T95 while the power is off"})
     EXPECT_NE(retentive.find(part), std::string::npos) << part << " in\n" << retentive;
 }
 

@@ -105,10 +105,11 @@ std::string elements_text(std::string_view area, std::uint32_t size, const std::
 std::string resolution_text(TimerKind kind) {
   std::string text;
   for (const Time base : {kMillisecond, 10 * kMillisecond, 100 * kMillisecond})
-    text += fmt::format("    {:<11}{}\n", format_duration(base), elements_text("T", image::kTimers, [&](std::uint32_t number) {
-                          const TimerBase timer = timer_base(number);
-                          return timer.base == base && timer.retentive == (kind == TimerKind::Retentive);
-                        }));
+    text +=
+        fmt::format("    {:<11}{}\n", format_duration(base), elements_text("T", image::kTimers, [&](std::uint32_t number) {
+                      const TimerBase timer = timer_base(number);
+                      return timer.base == base && timer.retentive == (kind == TimerKind::Retentive);
+                    }));
   return text;
 }
 
@@ -117,7 +118,10 @@ std::string retention_text(Area area, const Instruction& instruction) {
   std::vector<std::pair<std::string, CpuSet>> groups;  // what they keep, and which CPUs keep that
   for (const CpuModel* model : all_cpus()) {
     if (!(model->self & instruction.cpus)) continue;
+    const TimerKind kind = instruction.operand[0].timer;
     const auto is_kept = [&](std::uint32_t number) {
+      if (area == Area::T && kind != TimerKind::Any && timer_base(number).retentive != (kind == TimerKind::Retentive))
+        return false;
       return std::ranges::any_of(model->retentive, [&](const RetentiveRange& range) {
         return range.area == area && number >= range.first && number < range.first + range.count;
       });
@@ -131,7 +135,8 @@ std::string retention_text(Area area, const Instruction& instruction) {
   }
   std::string text;
   for (const auto& [kept, cpus] : groups)
-    text += fmt::format("    kept       {} while the power is off, as {} is delivered\n", kept, to_text(cpus));
+    text += fmt::format("    kept       {} while the power is off, as {} is delivered\n", kept.empty() ? "none" : kept,
+                        to_text(cpus));
   return text;
 }
 
