@@ -294,7 +294,7 @@ Result<SourceText> read_source(std::string_view bytes, const std::string& name, 
     return decoded.trouble();
   }
   if (const std::string_view wrapped = why_wrapped(decoded->text); !wrapped.empty()) return Trouble{std::string(wrapped)};
-  if (const std::string_view product = why_xml_of_other_product(decoded->text); !product.empty())
+  if (const std::string_view product = why_surely_other_product(decoded->text); !product.empty())
     return Trouble{std::string(product)};
   const auto inside = stl::program_in_strings(decoded->text);
   const stl::PlainText plain(inside ? inside->text : decoded->text, is_instruction_of_either_set);

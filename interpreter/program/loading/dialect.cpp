@@ -14,8 +14,8 @@
 namespace s7200 {
 namespace {
 
-enum class Dialect : std::uint8_t { Scl, Il, Melsec, Omron, Step7, Rockwell, Step5 };
-constexpr std::size_t kDialects = 7;
+enum class Dialect : std::uint8_t { Scl, Il, Melsec, Omron, Step7, Rockwell };
+constexpr std::size_t kDialects = 6;
 
 struct DialectText {
   std::string_view what, hint;
@@ -35,7 +35,6 @@ constexpr std::array<DialectText, kDialects> kTexts{{
     {"a program for Allen-Bradley controllers",
      "the STL of the S7-200 has LD, A and O for XIC, LDN, AN and ON for XIO, = for OTE, S and R for OTL and OTU; I0.0 for "
      "I:0/0"},
-    {"STL of STEP 5 for the S5", "the STL of the S7-200 has A for U, I and Q for E and A, TON for SE, and no : before it"},
 }};
 
 /// A line of code in capitals, without its comment and a semicolon at its end.
@@ -170,17 +169,6 @@ bool has_special_relay(const CodeLine& line) {
 /// `LD CIO 0.00`
 bool has_omron_area(const CodeLine& line) { return line.word(1) == "CIO" && line.words.size() == 3; }
 
-/// `:U E 1.0`, `0002 :BE`, `:L KF +10`: a line of STEP 5.
-bool is_step5(std::string_view code) {
-  code = stl::trim(code.substr(std::min(code.find_first_not_of("0123456789"), code.size())));
-  if (!code.starts_with(':')) return false;
-  const std::vector<std::string> words = stl::split_words(stl::upper_case(code.substr(1)));
-  return !words.empty() &&
-         is_among(words[0], {"U", "UN", "O", "ON", "=", "S", "R", "L", "T", "BE", "BEA", "BEB", "SPA", "SPB", "U(", "O("});
-}
-
-bool is_line_of_step5(const CodeLine& line) { return is_step5(line.text); }
-
 /// `LD NOT 0.01`
 bool has_not_as_operand(const CodeLine& line) {
   return is_among(line.word(0), {"LD", "AND", "OR", "OUT"}) && line.word(1) == "NOT" && line.words.size() == 3;
@@ -231,7 +219,6 @@ constexpr DialectSign kSigns[] = {
     {Dialect::Melsec, has_melsec_operands, 1},
     {Dialect::Melsec, has_special_relay, 3},
     {Dialect::Omron, has_omron_area, 3},
-    {Dialect::Step5, is_line_of_step5, 2},
     {Dialect::Omron, has_not_as_operand, 3},
     {Dialect::Omron, has_function_number, 2},
     {Dialect::Rockwell, has_logix_rung, 4},
@@ -333,7 +320,7 @@ struct Evidence {
 
   void add(int more, const stl::Position& at) { add({more, more, at}); }
   void add(const Evidence& more) {
-    if (more.weight > 0 && (weight == 0 || more.first.line < first.line)) first = more.first;
+    if (weight == 0) first = more.first;
     weight += more.weight;
     strongest = std::max(strongest, more.strongest);
   }
@@ -405,6 +392,24 @@ bool is_logo_block(std::string_view line) {
   return line.starts_with('B') && digits == 4 && line[digits] == '(' && line.find(')', digits) != line.npos;
 }
 
+/// `:U E 1.0`, `0002 :BE`, `:L KF +10`: a line of STEP 5.
+bool is_step5(std::string_view code) {
+  code = stl::trim(code.substr(std::min(code.find_first_not_of("0123456789"), code.size())));
+  if (!code.starts_with(':')) return false;
+  const std::vector<std::string> words = stl::split_words(stl::upper_case(code.substr(1)));
+  return !words.empty() &&
+         is_among(words[0], {"U", "UN", "O", "ON", "=", "S", "R", "L", "T", "BE", "BEA", "BEB", "SPA", "SPB", "U(", "O("});
+}
+
+bool is_program_of_step5(std::string_view text) {
+  std::size_t lines = 0;
+  while (!text.empty() && lines < 2) lines += is_step5(stl::trim(stl::take_line(text))) ? 1U : 0U;
+  return lines > 1;
+}
+
+constexpr std::string_view kStep5 =
+    "it is a program in STEP 5 for the S5, not STL of the S7-200: A for U, I and Q for E and A, no : before it";
+
 }  // namespace
 
 bool begins_as_step7(std::string_view text) {
@@ -433,28 +438,23 @@ std::optional<stl::Diagnostic> other_dialect(std::string_view text) {
   return judge.verdict();
 }
 
-std::string_view why_xml_of_other_product(std::string_view text) {
-  if (!stl::trim(text).starts_with("<?xml")) return {};
+std::string_view why_surely_other_product(std::string_view text) {
+  if (!stl::trim(text).starts_with("<?xml")) return is_program_of_step5(text) ? kStep5 : std::string_view();
   const auto product = std::ranges::find_if(
       kOtherProducts, [text](const OtherProduct& each) { return each.in_xml && text.find(each.sign) != text.npos; });
   return product == kOtherProducts.end() ? std::string_view() : product->what;
 }
 
 std::string_view why_other_product(std::string_view text) {
-  std::size_t blocks = 0, step5 = 0;
+  std::size_t blocks = 0;
   constexpr std::size_t kSeen = 1 << 16;
   text = text.substr(0, kSeen);
   const auto product =
       std::ranges::find_if(kOtherProducts, [text](const OtherProduct& each) { return text.find(each.sign) != text.npos; });
   if (product != kOtherProducts.end()) return product->what;
-  while (!text.empty()) {
-    const std::string_view line = stl::trim(stl::take_line(text));
-    blocks += is_logo_block(line) ? 1U : 0U;
-    step5 += is_step5(line) ? 1U : 0U;
-  }
+  if (is_program_of_step5(text)) return kStep5;
+  while (!text.empty()) blocks += is_logo_block(stl::trim(stl::take_line(text))) ? 1U : 0U;
   if (blocks > 1) return kOtherProducts[0].what;
-  if (step5 > 1)
-    return "it is a program in STEP 5 for the S5, not STL of the S7-200: A for U, I and Q for E and A, no : before it";
   return {};
 }
 

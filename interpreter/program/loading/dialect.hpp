@@ -17,8 +17,8 @@ std::optional<stl::Diagnostic> other_dialect(std::string_view text);
 /// Whether the first line of code is the head of a block of STEP 7 for the S7-300 and S7-400: `DATA_BLOCK DB 10`.
 bool begins_as_step7(std::string_view text);
 
-/// What `why_other_product` says of a file in XML; empty for any other text, which may have STL in it.
-std::string_view why_xml_of_other_product(std::string_view text);
+/// What `why_other_product` says of a file in XML and of STEP 5, whose lines may look like STL; empty for any other text.
+std::string_view why_surely_other_product(std::string_view text);
 
 /// Texts that are no STL of any kind. The product whose programming software has written a text, and what to do; empty if
 /// none is known.
