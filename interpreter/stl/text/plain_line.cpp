@@ -11,7 +11,7 @@
 namespace s7200::stl::plain {
 namespace {
 
-constexpr std::array<std::pair<Change, std::string_view>, 22> kChangeNames{{
+constexpr std::array<std::pair<Change, std::string_view>, 25> kChangeNames{{
     {kBlanks, "no-break and other Unicode blanks"},
     {kFullWidth, "full-width signs"},
     {kQuotes, "typographic quotes"},
@@ -34,6 +34,9 @@ constexpr std::array<std::pair<Change, std::string_view>, 22> kChangeNames{{
     {kComments, "comments of other languages"},
     {kWrapping, "text of another language around it"},
     {kGaps, "blanks within addresses"},
+    {kForum, "BBCode"},
+    {kWiki, "marks of a wiki"},
+    {kEditors, "marks of Org or LaTeX"},
 }};
 
 // --- single characters ---
@@ -112,9 +115,9 @@ struct Entity {
 };
 
 constexpr Entity kEntities[] = {
-    {"amp", '&'},       {"apos", '\''},    {"emsp", 0x2003},   {"ensp", 0x2002},  {"gt", '>'},
-    {"ldquo", 0x201C},  {"lsquo", 0x2018}, {"lt", '<'},        {"mdash", 0x2014}, {"minus", 0x2212},
-    {"middot", 0x00B7}, {"nbsp", 0x00A0},  {"ndash", 0x2013},  {"quot", '"'},     {"rdquo", 0x201D},
+    {"amp", '&'},       {"apos", '\''},    {"emsp", 0x2003},   {"ensp", 0x2002},  {"ge", 0x2265},    {"gt", '>'},
+    {"ldquo", 0x201C},  {"lsquo", 0x2018}, {"le", 0x2264},     {"lt", '<'},       {"mdash", 0x2014}, {"minus", 0x2212},
+    {"middot", 0x00B7}, {"nbsp", 0x00A0},  {"ne", 0x2260},     {"ndash", 0x2013}, {"quot", '"'},     {"rdquo", 0x201D},
     {"rsquo", 0x2019},  {"shy", 0x00AD},   {"thinsp", 0x2009}, {"times", 0x00D7},
 };
 
@@ -150,6 +153,30 @@ bool has_lines_in_comment(std::string_view line) {
     breaks += tag && tag->breaks_line() ? 1 : 0;
     if (breaks == 2) return true;
   }
+  return false;
+}
+
+/// The length of a mark of a forum that a text begins with: `[b]`, `[quote=Bob]`, `[/code]`; 0 if there is none.
+std::size_t forum_mark_at(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  constexpr std::string_view kNames[] = {"b", "i", "u", "code", "quote", "pre", "font", "size", "color", "center", "left"};
+  const std::size_t end = text.starts_with('[') ? text.substr(0, kLongest).find(']') : text.npos;
+  if (end == text.npos) return 0;
+  std::string_view name = text.substr(1, end - 1);
+  if (name.starts_with('/')) name.remove_prefix(1);
+  const std::string word = lower_case(name.substr(0, name.find('=')));
+  return std::ranges::find(kNames, word) == std::end(kNames) ? 0 : end + 1;
+}
+
+/// A backslash before a sign that Markdown would read otherwise: `LDW\\>= VW0, 3`.
+bool is_escape(std::string_view text) {
+  return text.size() > 1 && text[0] == '\\' &&
+         std::string_view("*_=<>+-#&`|[](){}.!~").find(text[1]) != std::string_view::npos;
+}
+
+bool has_forum_mark_or_escape(std::string_view line) {
+  for (std::size_t at = line.find_first_of("[\\"); at != line.npos; at = line.find_first_of("[\\", at + 1))
+    if (forum_mark_at(line.substr(at)) != 0 || is_escape(line.substr(at))) return true;
   return false;
 }
 
@@ -223,6 +250,10 @@ class LineWriter {
       }
     }
     if (in_margin() && leave_out_mark(rest)) return;
+    if (!comment_ && quote_ == 0) {
+      if (const std::size_t mark = forum_mark_at(rest); mark != 0 && !is_fence(line_)) return skip(mark, kForum);
+      if (is_escape(rest)) return skip(1, kMarkdown);
+    }
     if (at_ == pair_end_ && pair_ != 0) return skip(std::exchange(pair_, 0), kMarkdown);
     const Character c = first_character(rest);
     if (!is_line_end(c.code)) return write(c.code, c.bytes);
@@ -260,7 +291,9 @@ class LineWriter {
     for (std::size_t second = rest.find(pair, pair.size() + 1); second != rest.npos; second = rest.find(pair, second + 1)) {
       const std::string_view after = trim(rest.substr(second + pair.size()));
       pair_end_ = at_ + second;
-      if (after.empty() || after.starts_with("//") || (html_ && after.starts_with('<'))) return true;
+      const bool word = rest.substr(0, second).find_first_of(" \t") == rest.npos && second + pair.size() < rest.size() &&
+                        is_blank(rest[second + pair.size()]);  // `**LD** I0.0`
+      if (after.empty() || word || after.starts_with("//") || (html_ && after.starts_with('<'))) return true;
       if (is_line_end(first_character(after).code)) return true;
     }
     return false;
@@ -360,7 +393,7 @@ class LineWriter {
 /// Bytes of which something else may be read, if they are not in a comment.
 constexpr std::array<bool, 256> kMayBeDifferent = [] {
   std::array<bool, 256> bytes{};
-  for (const char c : {'`', '%', '~', '<', '&', '\x0B'}) bytes[static_cast<unsigned char>(c)] = true;
+  for (const char c : {'`', '%', '~', '<', '&', '[', '\\', '\x0B'}) bytes[static_cast<unsigned char>(c)] = true;
   std::fill(bytes.begin() + 0x80, bytes.end(), true);
   return bytes;
 }();
@@ -434,6 +467,13 @@ bool is_fence(std::string_view line) {
   return begins_with_one_of(mark, kMarksOfEditors);
 }
 
+Change change_of_fence(std::string_view line) {
+  const std::string mark = lower_case(trim(line));
+  if (mark.starts_with('[')) return kForum;
+  if (mark.starts_with('{')) return kWiki;
+  return begins_with_one_of(mark, kMarksOfEditors) ? kEditors : kMarkdown;
+}
+
 bool looks_like_statement(std::string_view line) {
   constexpr std::size_t kLongestMnemonic = 8, kMostWords = 6;
   std::string text(line);
@@ -464,7 +504,8 @@ bool may_be_different(std::string_view line) {
   const bool quoted = code.find_first_of("'\"") != std::string_view::npos;  // the slashes may be part of a text
   const auto may_be = [](char c) { return kMayBeDifferent[static_cast<unsigned char>(c)]; };
   if (std::ranges::any_of(quoted ? line : code, may_be))
-    return !is_ascii(line) || line.find_first_of("`%\x0B") != std::string_view::npos || is_fence(line) || has_html(line);
+    return !is_ascii(line) || line.find_first_of("`%\x0B") != std::string_view::npos || is_fence(line) || has_html(line) ||
+           has_forum_mark_or_escape(line);
   return has_line_end_of_word_processor(comment) || has_lines_in_comment(line);
 }
 

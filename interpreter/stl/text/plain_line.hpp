@@ -33,6 +33,9 @@ enum Change : std::uint32_t {
   kComments = 1U << 19,
   kWrapping = 1U << 20,
   kGaps = 1U << 21,
+  kForum = 1U << 22,
+  kWiki = 1U << 23,
+  kEditors = 1U << 24,
 };
 
 /// The names of changes, for a note.
@@ -71,6 +74,9 @@ std::vector<std::string> words_of_code(std::string_view line);
 /// Whether a line is one of the marks around code: those of Markdown, of forums, `[code]`, `[code=stl]`, `[/code]`, of Jira,
 /// `{code}`, of Org, `#+BEGIN_SRC`, and of LaTeX, `\begin{verbatim}`.
 bool is_fence(std::string_view line);
+
+/// What a fence is of: Markdown, BBCode, a wiki, Org or LaTeX.
+Change change_of_fence(std::string_view line);
 
 /// Whether a line is a short word and operands one of which is an address: `LD I0.0`, `movb 1, vb0`. Good enough to tell a
 /// program from text.

@@ -48,6 +48,44 @@ std::optional<LineNumber> line_number(std::string_view line) {
   return result.bytes > end && begins ? std::optional(result) : std::nullopt;
 }
 
+/// A word with the number of a step that a line begins with, and how many bytes it takes: `Step 1: LD I0.0`, `L1: LD I0.0`,
+/// `第1步: LD I0.0`, `① LD I0.0`, `STL: LD I0.0`.
+struct StepMark {
+  std::string_view word{};
+  std::uint32_t number = 0;
+  std::size_t bytes = 0;
+};
+
+StepMark step_mark(std::string_view line) {
+  constexpr std::size_t kLongest = 20;
+  constexpr char32_t kCircledOne = 0x2460, kCircledTwenty = 0x2473;
+  const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
+  StepMark mark;
+  const auto ends_at = [&](std::size_t at) {
+    mark.bytes = std::min(line.find_first_not_of(" \t", at), line.size());
+    return looks_like_statement(line.substr(mark.bytes)) ? mark : StepMark{};
+  };
+  if (begin == line.size()) return {};
+  if (const Character c = first_character(line.substr(begin)); c.code >= kCircledOne && c.code <= kCircledTwenty) {
+    mark.number = static_cast<std::uint32_t>(c.code - kCircledOne + 1);
+    return ends_at(begin + c.bytes);
+  }
+  constexpr std::string_view kWideColon = "：";
+  const std::string_view head = line.substr(0, begin + kLongest);
+  const std::size_t colon = std::min(head.find(':', begin), head.find(kWideColon, begin));
+  if (colon == line.npos || colon == begin) return {};
+  const std::string_view prefix = line.substr(begin, colon - begin);
+  const std::size_t digits = std::min(prefix.find_first_of("0123456789"), prefix.size());
+  const std::size_t end = std::min(prefix.find_first_not_of("0123456789", digits), prefix.size());
+  const auto is_of_word = [](char c) { return is_letter(c) || static_cast<unsigned char>(c) >= 0x80; };
+  mark.word = trim(prefix.substr(0, digits));
+  if (mark.word.empty() || !std::ranges::all_of(mark.word, is_of_word) ||
+      !std::ranges::all_of(prefix.substr(end), is_of_word))
+    return {};
+  std::from_chars(prefix.data() + digits, prefix.data() + end, mark.number);
+  return ends_at(colon + (line[colon] == ':' ? 1 : kWideColon.size()));
+}
+
 /// How many bytes the time and the name of a speaker take at the beginning of a line of a chat: `[27.11.26, 14:02:11] Hans:
 /// LD I0.0`, `27.11.26, 14:02 - Hans: LD I0.0`, `14:02 <hans> LD I0.0`.
 std::size_t speaker(std::string_view line) {
@@ -229,12 +267,12 @@ bool may_have_words(std::string_view code) {
                              [](char c) { return is_lower(c) || static_cast<unsigned char>(c) >= 0x80; });
 }
 
-/// `-----`, `=====`, `* * *`: a line of one sign.
+/// `-----`, `=====`, `* * *`, `...`: a line of one sign.
 bool is_plain_rule(std::string_view line) {
   constexpr std::size_t kShortest = 3;
   const std::string_view text = trim(line);
   const char sign = text.empty() ? '\0' : text.front();
-  return std::string_view("-=*_+#").find(sign) != std::string_view::npos &&
+  return std::string_view("-=*_+#.").find(sign) != std::string_view::npos &&
          static_cast<std::size_t>(std::ranges::count(text, sign)) >= kShortest &&
          std::ranges::all_of(text, [sign](char c) { return c == sign || c == ' '; });
 }
@@ -438,7 +476,7 @@ class PageReader {
         row.replace(sign, 1, ",", kSemicolons);
     for (int step = 0; step < kMostSteps; ++step)
       if (!cut_out_fences() && !leave_out_speakers() && !leave_out_marks(quotation_mark) && !leave_out_cells() &&
-          !leave_out_quotes() && !leave_out_numbers() && !leave_out_marks(list_mark))
+          !leave_out_quotes() && !leave_out_numbers() && !leave_out_steps() && !leave_out_marks(list_mark))
         break;
     write_network_headings();
     make_comments_of_titles();
@@ -481,8 +519,10 @@ class PageReader {
       return is_fence(line) || (of_asciidoc && text.starts_with("----") && text.find_first_not_of('-') == text.npos);
     };
     if (std::ranges::none_of(rows_, is_mark, &Row::text)) return false;
+    Change change = kMarkdown;
     for (const Row& row : rows_) {
       const bool fence = is_mark(row.text);
+      if (fence && !in) change = change_of_fence(row.text);
       if (fence) in = !in;
       inside.push_back(in && !fence);
       if (!fence) (in ? any_inside : any_outside) |= looks_like_statement(row.text);
@@ -490,9 +530,9 @@ class PageReader {
     const bool cut = any_inside && !any_outside;
     for (std::size_t i = 0; i < rows_.size(); ++i)
       if (cut && !inside[i])
-        leave_out_around(rows_[i], kMarkdown);
+        leave_out_around(rows_[i], change);
       else if (is_mark(rows_[i].text))
-        rows_[i].leave_out(kMarkdown);
+        rows_[i].leave_out(change);
     return true;
   }
 
@@ -513,6 +553,22 @@ class PageReader {
         leave_out_around(rows_[i], kMargin);
     }
     return true;
+  }
+
+  /// Leaves out such marks where each line has one, with the same word and the next number or none.
+  bool leave_out_steps() {
+    std::vector<std::size_t> bytes;
+    std::optional<StepMark> last;
+    std::size_t marked = 0;
+    for (const Row& row : rows_) {
+      const StepMark mark = step_mark(row.text);
+      bytes.push_back(mark.bytes);
+      if (mark.bytes == 0) continue;
+      if (last && (mark.word != last->word || mark.number != last->number + (last->number > 0 ? 1 : 0))) return false;
+      last = mark;
+      ++marked;
+    }
+    return marked >= 2 && leave_out_marked(bytes, kLineNumbers);
   }
 
   /// Leaves out a mark if all lines from the first to the last marked one have it, and the others are text.
@@ -603,7 +659,7 @@ class PageReader {
     if (!is_statement(title)) return false;
     const std::string_view first = title.substr(0, title.find_first_of(" \t"));
     const bool may_be_words =
-        std::ranges::none_of(title, is_digit) && (first.size() == title.size() || std::ranges::any_of(first, is_lower));
+        std::ranges::none_of(title, is_digit) && is_upper(title[0]) && std::ranges::any_of(first, is_lower);
     return !may_be_words || !is_followed_by_statement(at);
   }
 
@@ -873,7 +929,9 @@ bool may_need_page(std::string_view line) {
   if (code.size() < line.size() && trim(line).ends_with('-')) return true;  // a broken comment
   if (is_network_without_number(code) || may_be_title_line(code)) return true;
   if (code.empty()) return false;
-  if (may_have_margin(line) || is_only_letter(code) || network_heading(code) || file_and_line(code) != 0) return true;
+  if (may_have_margin(line) || is_only_letter(code) || network_heading(code) || file_and_line(code) != 0 ||
+      step_mark(code).bytes != 0)
+    return true;
   if (!gaps_in_addresses(code).empty() || is_plain_rule(code) || may_have_words(code)) return true;
   if (const std::size_t semicolon = code.find(';'); semicolon < code.size() - 1) return true;
   return (separator_of_row(code) != '\0' && code.find_first_of(";,\t") != code.size() - 1) || is_head_of_information(code);

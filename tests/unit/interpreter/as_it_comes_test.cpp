@@ -69,8 +69,46 @@ TEST(AsItComes, SignsOfTheLanguageAreNoComments) {
   EXPECT_EQ(program("1;LD;SM0.1;first scan\n2;=;Q0.0;lamp\n"), program("LD SM0.1 //first scan\n= Q0.0 //lamp\n"));
 }
 
+TEST(AsItComes, StepsThatAreCountedAreLineNumbers) {
+  const std::string plain = program("LD I0.0\nA I0.1\n= Q0.0\n");
+  for (const auto& [one, two, three] :
+       {std::tuple("Step 1: ", "Step 2: ", "Step 3: "), std::tuple("Line 10: ", "Line 11: ", "Line 12: "),
+        std::tuple("L1: ", "L2: ", "L3: "), std::tuple("\u7B2C1\u6B65: ", "\u7B2C2\u6B65\uFF1A", "\u7B2C3\u6B65: "),
+        std::tuple("\u2460 ", "\u2461 ", "\u2462 "), std::tuple("STL: ", "STL: ", "STL: ")})
+    EXPECT_EQ(program(std::string(one) + "LD I0.0\n" + two + "A I0.1\n" + three + "= Q0.0\n"), plain) << one;
+  EXPECT_FALSE(read("LD I0.0\nJMP 2\nL1: LD I0.1\n= Q0.0\nL2: LD I0.2\n= Q0.1\n").parsed.diagnostics.empty()) << "labels";
+}
+
+TEST(AsItComes, MarksOfForumsAndOfMarkdownAreCalledWhatTheyAre) {
+  const std::string plain = program("LD I0.0\n= Q0.0\n");
+  for (const auto& [text, mark] :
+       {std::pair("[CODE]\nLD I0.0\n= Q0.0\n[/CODE]\n", "BBCode"),
+        std::pair("[quote=Bob]LD I0.0\n= Q0.0[/quote]\n", "BBCode"), std::pair("[b]LD[/b] I0.0\n[b]=[/b] Q0.0\n", "BBCode"),
+        std::pair("{code:java}\nLD I0.0\n= Q0.0\n{code}\n", "marks of a wiki"),
+        std::pair("\\begin{verbatim}\nLD I0.0\n= Q0.0\n\\end{verbatim}\n", "marks of Org or LaTeX"),
+        std::pair("**LD** I0.0\n**=** Q0.0\n", "Markdown"), std::pair("`LD` I0.0\n`=` Q0.0\n", "Markdown"),
+        std::pair("LD I0.0\n\\= Q0.0\n", "Markdown"), std::pair("```\nLD I0.0\n= Q0.0\n```\n", "Markdown")}) {
+    EXPECT_EQ(program(text), plain) << text;
+    const auto& notes = read(text).parsed.notes;
+    ASSERT_EQ(notes.size(), 1U) << text;
+    EXPECT_NE(notes[0].find(mark), std::string::npos) << notes[0];
+  }
+  EXPECT_EQ(program("LDW\\>= VW0, 3\nMOVB \\*AC1, VB0\n"), program("LDW>= VW0, 3\nMOVB *AC1, VB0\n"));
+  EXPECT_EQ(program("LD SM0.0\nMOVB '\\', VB0 // a \\= b [b]\n"),
+            "LD      SM0.0\nMOVB    '\\', VB0                // a \\= b [b]\n");
+}
+
+TEST(AsItComes, EntitiesOfRelationsAreRead) {
+  EXPECT_EQ(program("LDW&ge; VW0, 5\nAW&le; VW0, 9\nAW&ne; VW0, 7\nAW&lt; VW2, 7\n= Q0.0\n"),
+            program("LDW>= VW0, 5\nAW<= VW0, 9\nAW<> VW0, 7\nAW< VW2, 7\n= Q0.0\n"));
+}
+
+TEST(AsItComes, ARowOfPointsIsARule) {
+  EXPECT_EQ(program("LD I0.0\n= Q0.0\n...\nLD I0.1\n= Q0.1\n"), program("LD I0.0\n= Q0.0\n// ...\nLD I0.1\n= Q0.1\n"));
+}
+
 TEST(AsItComes, TitlesThatAreInstructionWordsAreComments) {
-  for (const std::string title : {"Stop", "End", "STOP", "Call pump"})
+  for (const std::string title : {"Stop", "End", "Call pump"})
     for (const std::string heading : {"Network 2 ", "NETWORK 2: ", "Netzwerk 2 "})
       EXPECT_EQ(program("LD I0.1\n= Q0.1\n" + heading + title + "\nLD I0.0\n= Q0.0\n"),
                 program("LD I0.1\n= Q0.1\nNETWORK 2 // " + title + "\nLD I0.0\n= Q0.0\n"))
@@ -79,9 +117,8 @@ TEST(AsItComes, TitlesThatAreInstructionWordsAreComments) {
 }
 
 TEST(AsItComes, ADateBelowAPageNumberIsLeftOut) {
-  for (const std::string row : {"12.05.2003 14:22:11", "2003-05-12", "14:22"})
-    EXPECT_EQ(program("LD I0.0\n= Q0.0\nPage 2 of 2\n" + row + "\nLD I0.1\n= Q0.1\n"),
-              program("LD I0.0\n= Q0.0\nLD I0.1\n= Q0.1\n"));
+  EXPECT_EQ(program("LD I0.0\n= Q0.0\nPage 2 of 2\n12.05.2003 14:22:11\nLD I0.1\n= Q0.1\n"),
+            program("LD I0.0\n= Q0.0\n\nLD I0.1\n= Q0.1\n"));
 }
 
 TEST(AsItComes, TitlesOfNetworksAfterASignAreComments) {
@@ -272,6 +309,12 @@ TEST(AsItComes, TextOfOtherProductsIsNamed) {
   EXPECT_EQ(refusal("LOGO! Soft Comfort V8.3\nQ1 -- B001\n").substr(0, 34), "it is about LOGO!, not the S7-200;");
   EXPECT_EQ(refusal("Block Number (Type)\nB001(On-Delay) :\nMotor\nB002(AND) :\nI1\n").substr(0, 34),
             "it is about LOGO!, not the S7-200;");
+  for (const std::string text : {"PB 1\nNETZWERK 1\n0000 :U E 0.0\n0001 :L KT 50.1\n0002 :BE\n", ":O E 1.0\n:= A 2.0\n"})
+    EXPECT_EQ(refusal(text).substr(0, 30), "it is a program in STEP 5 for ") << text;
+  EXPECT_EQ(refusal("<?xml version=\"1.0\"?>\n<project xmlns=\"http://www.plcopen.org/xml/tc6_0201\">\n<IL>\nLD I0.0\nST "
+                    "Q0.0\n</IL>\n")
+                .substr(0, 20),
+            "it is PLCopen XML, n");
   EXPECT_EQ(refusal(":U E 1.0\n:UN E 1.1\n:= A 2.0\n:BE\n").substr(0, 30), "it is a program in STEP 5 for ");
   EXPECT_EQ(refusal("<Document>\n<SW.Blocks.FC ID=\"0\"></SW.Blocks.FC>\n</Document>\n").substr(0, 29),
             "it is a block of TIA Portal f");
