@@ -83,7 +83,7 @@ const RoutinePhrase* routine_phrase(std::string_view text) {
     const bool may =
         !text.empty() && (text[0] == row.words[0] || (is_lower(text[0]) && text[0] - 'a' + 'A' == row.words[0]));
     if (!may || upper_case(text.substr(0, row.words.size())) != row.words) return false;
-    return row.words.size() == text.size() || !is_letter(text[row.words.size()]);
+    return row.words.size() == text.size() || !is_ascii(row.words) || !is_letter(text[row.words.size()]);
   };
   const auto row = std::ranges::find_if(kRoutinePhrases, begins);
   return row == kRoutinePhrases.end() ? nullptr : &*row;
@@ -203,6 +203,11 @@ std::optional<RoutineName> routine_heading(std::string_view line) {
       !phrase && plain == code && written.size() == 2 && number_in(written[1]) &&
       (written[0] == words(Block::Kind::Subroutine).head || written[0] == words(Block::Kind::Interrupt).head);
   return statement ? std::nullopt : parts.routine();
+}
+
+std::optional<HeadingWords> foreign_heading(std::string_view line) {
+  const RoutinePhrase* const phrase = routine_phrase(line);
+  return phrase ? std::optional(HeadingWords{phrase->words.size(), phrase->kind}) : std::nullopt;
 }
 
 std::string_view name_in_heading(std::string_view line) {

@@ -29,6 +29,13 @@ std::optional<RoutineName> routine_heading(std::string_view line);
 /// The mnemonic of the statement that stands for the heading of the main program until put_main_program_first().
 inline constexpr std::string_view kMainHeading = "MAIN";
 
+/// The words of another language that a line begins with, `Unterprogramm`, and the kind of routine whose heading they are.
+struct HeadingWords {
+  std::size_t bytes = 0;
+  Block::Kind kind = Block::Kind::Main;
+};
+std::optional<HeadingWords> foreign_heading(std::string_view line);
+
 /// The name in a line that begins as the heading of a routine and ends in one: `SUBROUTINE Init`. Empty for any other line.
 std::string_view name_in_heading(std::string_view line);
 

@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <functional>
 #include <optional>
+#include <set>
 #include <system_error>
 
 #include "interpreter/base/text/numbers.hpp"
@@ -370,26 +371,22 @@ bool is_comparison_without_relation(std::string_view mnemonic) {
 constexpr const char* kNetworkTakes = "NETWORK takes a number and nothing else";
 constexpr const char* kTitleOfNetwork = "a title is written as a comment: NETWORK 1 // title";
 
-/// Headings of routines in other languages, and how they are written here; those of networks are in network_heading.cpp.
-struct ForeignHeading {
-  std::string_view word, of, hint;
+/// What a heading that cannot be read is of, and how it is written here.
+struct HeadingHint {
+  std::string_view of, hint;
 };
 
-constexpr std::string_view kMainProgram = "write MAIN, or nothing: a listing begins with the main program";
-constexpr std::string_view kSubroutineZero = "write SBR_0 for subroutine 0";
-constexpr std::string_view kInterruptZero = "write INT_0 for interrupt routine 0";
-constexpr std::array kForeignHeadings{
-    ForeignHeading{"Programme principal", "the main program", kMainProgram},
-    ForeignHeading{"PROGRAMME PRINCIPAL", "the main program", kMainProgram},
-    ForeignHeading{"Sous-programme", "a subroutine", kSubroutineZero},
-    ForeignHeading{"SOUS-PROGRAMME", "a subroutine", kSubroutineZero},
-    ForeignHeading{"Programme d'interruption", "an interrupt routine", kInterruptZero},
-    ForeignHeading{"PROGRAMME D'INTERRUPTION", "an interrupt routine", kInterruptZero},
-    ForeignHeading{"Interrupt-Programm", "an interrupt routine", kInterruptZero},
-    ForeignHeading{"主程序", "the main program", kMainProgram},
-    ForeignHeading{"子程序", "a subroutine", kSubroutineZero},
-    ForeignHeading{"中断程序", "an interrupt routine", kInterruptZero},
-};
+constexpr HeadingHint heading_hint(Block::Kind kind) {
+  switch (kind) {
+    case Block::Kind::Main:
+      return {"the main program", "write MAIN, or nothing: a listing begins with the main program"};
+    case Block::Kind::Subroutine:
+      return {"a subroutine", "write SBR_0 for subroutine 0"};
+    case Block::Kind::Interrupt:
+      break;
+  }
+  return {"an interrupt routine", "write INT_0 for interrupt routine 0"};
+}
 
 /// The comments of a new project, as the editor and its printouts show them.
 constexpr std::array<std::string_view, 12> kDefaultComments{
@@ -910,6 +907,22 @@ class LineReader {
     return true;
   }
 
+  /// The first number for which the text has no heading of a routine.
+  std::uint32_t first_free(Block::Kind kind) const {
+    std::set<std::uint32_t> taken;
+    for (const std::string& line : result_.source.text) {
+      const std::string_view code = trim(line);
+      const std::vector<std::string> written = split_words(code.substr(0, code.find_first_of(":/")));
+      if (written.size() == 2 && upper_case(written[0]) == words(kind).head)
+        taken.insert(number_of<std::uint32_t>(written[1]).value_or(0));
+      if (const auto routine = routine_heading(code.substr(0, code.find(':'))); routine && routine->kind == kind)
+        taken.insert(routine->number);
+    }
+    std::uint32_t free = 0;
+    while (taken.contains(free)) ++free;
+    return free;
+  }
+
   /// Reports `Init:` in a listing with `CALL Init`. Returns true after a message.
   bool report_called_name(std::string_view name) {
     const std::string capitals = upper_case(name);
@@ -921,10 +934,12 @@ class LineReader {
     const auto call = std::ranges::find_if(result_.source.text, starts);
     if (call == result_.source.text.end()) return false;
     const bool calls = upper_case(trim(*call)).starts_with("CALL");
+    const auto free = first_free(calls ? Block::Kind::Subroutine : Block::Kind::Interrupt);
     report(position(Range(name.data(), name.data() + name.size())),
            fmt::format("{} is the name of {}, which a listing numbers", shortened(name),
                        calls ? "a subroutine" : "an interrupt routine"),
-           calls ? "write SBR_0 in a line of its own, and CALL SBR_0" : "write INT_0 in a line of its own, and ATCH INT_0",
+           fmt::format("write {0}_{1} in a line of its own, and {2} {0}_{1}", calls ? "SBR" : "INT", free,
+                       calls ? "CALL" : "ATCH"),
            fmt::format("there is no {} {}", calls ? "subroutine" : "interrupt routine", shortened(name)));
     return true;
   }
@@ -957,14 +972,12 @@ class LineReader {
   /// them are unknown mnemonics to the checker.
   bool report_heading() {
     const std::string_view line = trim(text_);
-    const auto known =
-        std::ranges::find_if(kForeignHeadings, [line](const ForeignHeading& each) { return line.starts_with(each.word); });
-    ForeignHeading row = known != kForeignHeadings.end() ? *known : ForeignHeading{{}, "a network", "write NETWORK"};
-    if (row.word.empty()) row.word = line.substr(0, plain::network_word(line));
-    if (row.word.empty() || upper_case(row.word) == "NETWORK") return false;
-    const std::string_view word = line.substr(0, row.word.size());
+    const auto of_routine = foreign_heading(line);
+    const auto [of, hint] = of_routine ? heading_hint(of_routine->kind) : HeadingHint{"a network", "write NETWORK"};
+    const std::string_view word = line.substr(0, of_routine ? of_routine->bytes : plain::network_word(line));
+    if (word.empty() || upper_case(word) == "NETWORK") return false;
     report(position(Range(word.data(), word.data() + word.size())),
-           fmt::format("{} is the heading of {} in another language", word, row.of), std::string(row.hint),
+           fmt::format("{} is the heading of {} in another language", word, of), std::string(hint),
            "headings in another language");
     return true;
   }
@@ -1120,11 +1133,12 @@ class LineReader {
   static std::vector<std::string> mnemonics_in(std::string_view line) {
     constexpr std::size_t kLongest = 5;
     const std::vector<std::string> words = split_words(line);
+    const bool commas = line.ends_with(',');  // `LD I0.0, A I0.1, = Q0.0`
     const auto has_digit = [](const std::string& word) { return std::ranges::any_of(word, is_digit); };
     std::vector<std::string> found;
     for (std::size_t i = 2; i + 1 < words.size(); ++i)
       if (words[i].size() <= kLongest && std::ranges::all_of(words[i], [](char c) { return is_upper(c) || c == '='; }) &&
-          !words[i - 1].ends_with(',') && has_digit(words[i - 1]) && has_digit(words[i + 1]))
+          (commas || !words[i - 1].ends_with(',')) && has_digit(words[i - 1]) && has_digit(words[i + 1]))
         found.push_back(words[i]);
     return found;
   }

@@ -609,7 +609,7 @@ std::string to_text(const StandIn& stand_in) {
 
 stl::Diagnostic refusal(const StandIn& stand_in) {
   return {stl::Severity::Error, stand_in.call, in_no_export(stand_in),
-          fmt::format("--no-stand-ins refuses {}: {}", stand_in.file, kWriteYourOwn)};
+          fmt::format("--no-stand-ins refuses the stand-in for its library: {}", kWriteYourOwn)};
 }
 
 }  // namespace s7200

@@ -63,7 +63,11 @@ bool contains(const RetentiveRange& whole, const RetentiveRange& part) {
 /// `VB0:100`, `T0:32`
 Result<RetentiveRange> parse_retentive_range(std::string_view text, const CpuModel& model) {
   const auto place = parse_range(text, model);
-  if (!place) return place.trouble();
+  const bool area = text.size() > 1 && std::string_view("VMTC").find(stl::upper_case(text.substr(0, 1))) != text.npos;
+  if (!place && area) return place.trouble();
+  if (!place)
+    return trouble("'{}' is no range of memory; write for example VB0:100, MB0:14, T0:32, C0:5, or none",
+                   stl::shortened(text));
   const bool numbered = info(place->area).element != 0;
   const RetentiveRange range{place->area, place->number, numbered ? place->count : place->bytes()};
   const auto possible = retainable(model);

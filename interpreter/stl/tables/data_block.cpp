@@ -90,12 +90,23 @@ Result<DataLine::Value> value_of(std::string_view word, const Position& at) {
   return trouble("{} is not a value", shortened(word));
 }
 
+/// `Address  Value`: headings of a table of values.
+bool is_heading(std::string_view line) {
+  constexpr std::string_view kAddress[] = {"ADDRESS", "ADRESSE", "DIRECCION", "INDIRIZZO", "地址"};
+  constexpr std::string_view kValue[] = {"VALUE", "VALUES", "WERT", "VALEUR", "VALOR", "VALORE", "DATA", "值"};
+  const std::vector<std::string> words = split_words(upper_case(line.substr(0, line.find("//"))));
+  return words.size() >= 2 && std::ranges::find(kAddress, words[0]) != std::end(kAddress) &&
+         std::ranges::find(kValue, words[1]) != std::end(kValue);
+}
+
 }  // namespace
 
 bool is_data_block(std::string_view text, const std::function<bool(std::string_view word)>& is_mnemonic) {
   std::size_t addresses = 0, values = 0, other = 0;
   while (!text.empty()) {
-    Words words(take_line(text));
+    const std::string_view line = take_line(text);
+    if (addresses + values + other == 0 && is_heading(line)) continue;
+    Words words(line);
     const std::string_view word = words.next(), next = words.next();
     if (word.empty()) continue;
     const bool address = begins_with_v_address(word);
@@ -153,7 +164,10 @@ ParseResult read_data_block(std::string_view text, std::string name) {
   result.source.name = std::move(name);
   result.source.text = split_lines(text);
   std::uint32_t number = 0;
-  for (const std::string& line : result.source.text) read_data_line(line, ++number, result);
+  for (const std::string& line : result.source.text) {
+    ++number;
+    if (!result.source.data.empty() || !is_heading(line)) read_data_line(line, number, result);
+  }
   return result;
 }
 

@@ -411,15 +411,15 @@ class SymbolTableReader {
     add(cells, *columns, line);
   }
 
-  /// A row with blanks between its cells, as someone adds it to an exported table, or a name alone. Other lines are headings
+  /// A row with blanks between its cells, as someone adds it to an exported table. Other lines are headings
   /// of tables and pages.
   void read_typed_row(std::string_view line) {
     const auto words = parts_of(line, " ");
     if (!headed_ || words.empty() || !is_name(words[0])) return;
     const Cells cells = symbol_among(words);
     if (!cells.empty() && (is_address(cells[1].text) || is_known(cells[0].text))) return add(cells, {}, line);
-    if (words.size() == 1) return add_without_address({cell_of(words[0])}, line);
-    if (may_be_value(words[1]) && !value_of(words[1]).why().empty()) add({cell_of(words[0]), cell_of(words[1])}, {}, line);
+    if (words.size() > 1 && may_be_value(words[1]) && !value_of(words[1]).why().empty())
+      add({cell_of(words[0]), cell_of(words[1])}, {}, line);
   }
 
   bool is_known(std::string_view name) const {

@@ -162,5 +162,15 @@ TEST(DataBlock, AnAddressWithoutValueIsNamedWithoutTheBlanksAroundIt) {
   EXPECT_EQ(error("  VB0  // none\n"), "VB0 has no value");
 }
 
+TEST(DataBlock, MayHaveHeadings) {
+  for (const std::string head : {"Address\tValue\n", "Adresse  Wert  Kommentar\n"}) {
+    const auto source = read_source(head + "VB0\t5\nVW2\t7\n", "values.txt");
+    ASSERT_TRUE(source) << source.why();
+    EXPECT_EQ(source->kind, SourceKind::DataBlock);
+    EXPECT_TRUE(source->parsed.diagnostics.empty());
+    EXPECT_EQ(source->parsed.source.data.size(), 2U);
+  }
+}
+
 }  // namespace
 }  // namespace s7200::data_block_test

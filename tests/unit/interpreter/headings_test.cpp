@@ -191,7 +191,7 @@ TEST(Headings, MayStandBeforeTheirFirstStatement) {
 
 TEST(Headings, ANameThatIsCalledIsNoLabel) {
   for (const std::string heading : {"Init:", "Init: LD I0.1", "SUBROUTINE Init", "Unterprogramm Init"})
-    EXPECT_EQ(errors(checked("LD SM0.1\nCALL Init\n" + heading + "\n")),
+    EXPECT_EQ(errors(checked("LD SM0.1\nCALL Init\n" + heading + "\nLD I0.2\n= Q0.1\n")),
               "3: Init is the name of a subroutine, which a listing numbers\n")
         << heading;
 }

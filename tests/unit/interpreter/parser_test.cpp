@@ -203,11 +203,11 @@ TEST(Parser, AHeadingInAnotherLanguageIsNamed) {
 TEST(Parser, AHeadingOfARoutineInAnotherLanguageIsNamed) {
   for (const char* heading : {"NETZWERK 1: Start", "Netzwerk 2 - Zeit", "Segmento 3: marcha"})
     EXPECT_TRUE(error(heading).message.ends_with(" is the heading of a network in another language")) << heading;
-  EXPECT_EQ(error("Sous-programme 1").hint, "write SBR_0 for subroutine 0");
-  EXPECT_EQ(error("PROGRAMME D'INTERRUPTION 0").hint, "write INT_0 for interrupt routine 0");
+  EXPECT_EQ(error("Sous-programme Pompe").hint, "write SBR_0 for subroutine 0");
+  EXPECT_EQ(error("PROGRAMME D'INTERRUPTION Pompe").hint, "write INT_0 for interrupt routine 0");
   EXPECT_EQ(error("网络1：初始化").message, "网络 is the heading of a network in another language");
   EXPECT_EQ(error("主程序：").message, "主程序 is the heading of the main program in another language");
-  EXPECT_EQ(error("中断程序INT_0").hint, "write INT_0 for interrupt routine 0");
+  EXPECT_EQ(error("中断程序说明").hint, "write INT_0 for interrupt routine 0");
 }
 
 TEST(Parser, TheTitleOfANetworkIsAComment) {

@@ -21,6 +21,7 @@ TEST(RetentiveRanges, AreUpToSixOfVMTAndC) {
   EXPECT_EQ(read_as("VB8190:4"), "'VB8190:4' does not exist on CPU 224: V memory has 8192 bytes");
   EXPECT_NE(read_as("C200", cpu214()), "C200:1") << "it has 128";
   EXPECT_NE(read_as(""), "none");
+  EXPECT_EQ(read_as("foo"), "'foo' is no range of memory; write for example VB0:100, MB0:14, T0:32, C0:5, or none");
 }
 
 /// A CPU after a power cycle, of which some memory was set before.

@@ -198,8 +198,6 @@ TEST(SymbolTable, ACommaInACommentMakesNoStatusChartOfIt) {
 TEST(SymbolTable, ARowTypedWithBlanksIsRead) {
   EXPECT_EQ(symbols("Symbol\tAddress\nButton\tI0.0\nLamp Q0.0 red\nPage 2\nPump\tQ0.1\n"),
             (Lines{"Button=I0.0", "Lamp=Q0.0 red", "Pump=Q0.1"}));
-  EXPECT_EQ(symbols("Symbol\tAddress\nButton\tI0.0\nLamp\nPump\nPump\tQ0.1\n"),
-            (Lines{"Button=I0.0", "Lamp=", "Pump=Q0.1"}));
   EXPECT_EQ(said("LD SM0.0\nMOVW Speed, VW2\nMEND\n", "Symbol\tAddress\nSpeed\tVW100\n\nSpeed 7\n"),
             Lines{"t.txt:4:1: error: Speed is defined twice; it is first defined in line 2"});
 }
@@ -210,8 +208,6 @@ TEST(SymbolTable, AnAddressThatCannotBeIsSaidOnce) {
             Lines{"t.txt:2:8: error: the bits of a byte are 0 to 7; " + row});
   EXPECT_EQ(said("LD I0.0\n= Pump\nMEND\n", "Symbol\tAddress\nButton\tI0.0\nPump Q0.9 blue\n"),
             Lines{"t.txt:3:6: error: the bits of a byte are 0 to 7; " + row});
-  EXPECT_EQ(said("LD I0.0\n= Lamp\nMEND\n", "Symbol\tAddress\nButton\tI0.0\nLamp\n"),
-            Lines{"p.awl:2:3: error: symbol Lamp has no address"});
 }
 
 TEST(SymbolTable, HasDeclarationsWithTheirAddresses) {
