@@ -86,7 +86,9 @@ TEST(Effects, NothingIsKnownOfAPointerThatSomethingElseMayWrite) {
   EXPECT_FALSE(is_known("MOVD &VB100, VD0\nMOVB VB9, VB0\n")) << "the byte with the area";
   EXPECT_FALSE(is_known("MOVD &VB100, VD0\nFILL 0, VW0, VB9\n"));
   EXPECT_FALSE(is_known("MOVD &VB100, VD0\nMOVB 1, *VD20\n")) << "through a pointer that may lead there";
-  EXPECT_FALSE(is_known("MOVD &VB100, VD0\nMOVD &VB1, AC2\nINCD AC2\nMOVB 1, *AC2\n"));
+  EXPECT_FALSE(is_known("MOVD &VB100, VD0\nLD SM0.1\nMOVD &VB9, AC2\nLD SM0.0\nDECD AC2\nMOVB 1, *AC2\n"))
+      << "through one that is counted down to it";
+  EXPECT_TRUE(is_known("MOVD &VB100, VD0\nMOVD &VB1, AC2\nINCD AC2\nMOVB 1, *AC2\n")) << "VB2 does not hold its area";
   EXPECT_TRUE(is_known("MOVD &VB100, VD0\nMOVD &VB4, AC2\nMOVB 1, *AC2\n")) << "through one that does not";
   EXPECT_FALSE(is_known("MOVD *VD8, VD0\n"));
 }
