@@ -121,7 +121,7 @@ TEST(UnknownMnemonics, TheOneThatIsNearIsNamedWithItsMeaning) {
 
 TEST(UnknownMnemonics, OfSeveralThatAreEquallyNearAllAreNamedOrNone) {
   EXPECT_EQ(hint("MOVX"), "did you mean MOVB, MOVW, MOVD or MOVR?");
-  EXPECT_EQ(hint("LDB"), "");
+  EXPECT_EQ(hint("LDB"), "write LDB=, LDB<>, LDB>=, LDB<=, LDB> or LDB<");
   EXPECT_EQ(hint("FROB"), "");  // and not ORB, two letters away
 }
 
