@@ -93,7 +93,7 @@ TEST(InstructionTable, RowsThatCpu214LacksAreRefusedByName) {
   for (const Instruction& instruction : all_instructions()) {
     if (instruction.cpus & kCpu214) continue;
     const std::string mnemonic(instruction.mnemonic);
-    const CheckResult result = check_text("LD SM0.0\n" + mnemonic + "\nMEND\n", "test", cpu214(), times());
+    const CheckResult result = check_text("LD SM0.0\n" + mnemonic + " VB0, VB1\nMEND\n", "test", cpu214(), times());
     ASSERT_FALSE(result.program) << mnemonic;
     EXPECT_EQ(result.diagnostics.at(0).message, "CPU 214 has no " + mnemonic);
   }
