@@ -229,7 +229,7 @@ class Protection {
   bool is_executed_with(std::size_t closing, std::size_t later) const {
     if (facts_.flow.nodes[steps_[closing].op].powered) return !leads_past(closing, later);
     for (std::size_t i = closing + 1; i < later; ++i) {
-      if (steps_[i].call != steps_[closing].call) continue;
+      if (!is_beside(i, closing)) continue;
       const Op& between = op(i);
       const std::string_view mnemonic = between.instruction->mnemonic;
       const bool only_takes_power = mnemonic.starts_with('A') && mnemonic != "ALD";
@@ -240,18 +240,28 @@ class Protection {
     return true;
   }
 
-  /// Whether some way leads past the closing step: a label, to which a jump may come, or a way out of its routine.
+  /// Whether some way leads past the closing step: a label, to which a jump may come, a way out of its routine, or a CALL of
+  /// that which is left out.
   bool leads_past(std::size_t closing, std::size_t later) const {
     bool left = false;
     for (std::size_t i = closing + 1; i <= later; ++i) {
-      if (steps_[i].call != steps_[closing].call) continue;
+      if (!is_beside(i, closing)) continue;
       const Structure structure = op(i).instruction->structure;
       if (structure == Structure::Label) return true;
       left |= structure == Structure::SubroutineEnd;
     }
-    for (std::size_t i = closing; left && i-- > 0;)
-      if (steps_[i].call == steps_[closing].call && op(i).instruction->effect == Effect::ConditionalEnd) return true;
-    return false;
+    if (!left) return false;
+    for (std::size_t i = closing; i-- > 0;)
+      if (is_beside(i, closing) && op(i).instruction->effect == Effect::ConditionalEnd) return true;
+    const auto head = std::ranges::find(steps_, steps_[closing].call, &PlacedOp::call) - steps_.begin();
+    return head != 0 && !is_executed_with(static_cast<std::size_t>(head) - 1, later);
+  }
+
+  /// Whether a step is of the same execution of the same routine. What hands parameters back is not: its op is the RET.
+  bool is_beside(std::size_t step, std::size_t closing) const {
+    const auto& nodes = facts_.flow.nodes;
+    return steps_[step].call == steps_[closing].call &&
+           nodes[steps_[step].op].routine == nodes[steps_[closing].op].routine;
   }
 
   const Facts& facts_;

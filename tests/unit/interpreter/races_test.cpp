@@ -11,9 +11,8 @@ namespace s7200::test::races_test {
 namespace {
 
 /// `KIND MEMORY FIRST-LAST`, with `?` if only a run can tell, with ops of the main program counted from the one after ENI.
-std::string races(std::string_view main, std::string_view interrupt, std::string_view subroutines = "") {
-  const auto program = program_of(
-      fmt::format("LD SM0.1\nATCH 0, 10\nENI\n{}MEND\n{}INT 0\n{}RETI\n", main, subroutines, interrupt), *find_cpu("224"));
+std::string races_in(const std::string& stl) {
+  const auto program = program_of(stl, *find_cpu("224"));
   const Facts facts = facts_of(*program);
   return stl::joined(
       find_races(facts, calls_of(*program, facts.flow)),
@@ -23,6 +22,20 @@ std::string races(std::string_view main, std::string_view interrupt, std::string
                            memory_text(race.bits), race.first - 3, race.last - 3);
       },
       "; ");
+}
+
+std::string races(std::string_view main, std::string_view interrupt, std::string_view subroutines = "") {
+  return races_in(fmt::format("LD SM0.1\nATCH 0, 10\nENI\n{}MEND\n{}INT 0\n{}RETI\n", main, subroutines, interrupt));
+}
+
+/// The same with blocks: subroutine 0 is `Work`, with a parameter `x`. Its main program calls it.
+std::string races_with_parameter(std::string_view main, std::string_view interrupt, std::string_view section,
+                                 std::string_view work) {
+  return races_in(
+      fmt::format("ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.1\nATCH 0, 10\nENI\n{}END_ORGANIZATION_BLOCK\n"
+                  "SUBROUTINE_BLOCK Work:SBR0\n{}\n x : INT;\nEND_VAR\nBEGIN\nNETWORK 1\n{}END_SUBROUTINE_BLOCK\n"
+                  "INTERRUPT_BLOCK Comes:INT0\nBEGIN\nNETWORK 1\n{}END_INTERRUPT_BLOCK\n",
+                  main, section, work, interrupt));
 }
 
 constexpr std::string_view kCounts = "LD SM0.0\nINCW VW10\n";
@@ -52,6 +65,36 @@ TEST(Races, DisiKeepsTheInterruptAway) {
   EXPECT_EQ(
       races("LD SM0.0\nDISI\nCALL 1\nENI\n", kCounts, "SBR 1\nLD I0.0\nMOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\nRET\n"),
       "");
+}
+
+TEST(Races, DisiInASubroutineKeepsTheInterruptAwayIfTheSubroutineIsSurelyCalled) {
+  constexpr std::string_view kUpdate = "LD SM0.0\nMOVW VW10, AC0\n+I 3, AC0\nMOVW AC0, VW10\n";
+  const auto after = [&](std::string_view call, std::string_view subroutines) {
+    return races(std::string(call) + std::string(kUpdate), kCounts, subroutines);
+  };
+  for (const std::string_view away : {"DISI", "DTCH 10"}) {
+    const std::string one = fmt::format("SBR 1\nLD SM0.0\n{}\nRET\n", away);
+    EXPECT_EQ(after("LD SM0.0\nCALL 1\n", one), "") << away;
+    EXPECT_EQ(after("LD I0.0\nCALL 1\n", one), "lost VW10 3-5") << away;
+    EXPECT_EQ(after("LD SM0.0\nCALL 2\n", one + "SBR 2\nLD I0.0\nCALL 1\nRET\n"), "lost VW10 3-5") << away;
+    EXPECT_EQ(after("LD SM0.0\nCALL 2\n", one + "SBR 2\nLD I0.0\nCRET\nLD SM0.0\nCALL 1\nRET\n"), "lost VW10 3-5") << away;
+    EXPECT_EQ(after("LD SM0.0\nCALL 2\n", one + "SBR 2\nLD SM0.0\nCALL 1\nRET\n"), "") << away;
+  }
+  EXPECT_EQ(races("LD I0.0\nCALL 1\nMOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\nENI\n", kCounts,
+                  "SBR 1\nLD SM0.0\nDISI\nRET\n"),
+            "")
+      << "in the rung of the CALL";
+}
+
+TEST(Races, ASubroutineThatHandsSomethingBackDoesNotEndWhatDisiCovers) {
+  constexpr std::string_view kUpdate = "DISI\nCALL Work, VW50\nMOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\nENI\n";
+  const auto of = [&](std::string_view condition, std::string_view update) {
+    return races_with_parameter(std::string(condition) + std::string(update), kCounts, "VAR_OUTPUT",
+                                "LD SM0.0\nMOVW 1, #x\n");
+  };
+  EXPECT_EQ(of("LD I0.0\n", kUpdate), "");
+  EXPECT_EQ(of("LD I0.0\nEND\nLD SM0.0\n", kUpdate), "");
+  EXPECT_EQ(of("LD I0.0\n", kUpdate.substr(5)), "lost VW10 2-4");
 }
 
 TEST(Races, PointersLeadToThem) {
