@@ -108,6 +108,13 @@ def threshold(p):
     p.main += [f"LDW>= VW{word}, {p.chance.randrange(1, 100)}", f"MOVW 0, VW{word}"]
 
 
+def threshold_with_copy(p):
+    """The copy is new or old, whatever becomes of the count."""
+    word, other = p.memory(), p.memory()
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"INCW VW{word}", f"INCW VW{other}"]
+    p.main += [f"LDW>= VW{word}, {p.chance.randrange(1, 100)}", f"MOVW VW{other}, VW{p.memory()}", f"MOVW 0, VW{word}"]
+
+
 def shown_and_reset(p):
     word = p.memory()
     p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"INCW VW{word}"]
@@ -129,8 +136,8 @@ def pointer_elsewhere(p):
                "+D 2, AC1", "NEXT"]
 
 
-HARMLESS = [filler, filler, single, protected, protected_call, accumulators, whole, handshake, detached, threshold, shown_and_reset, mailbox,
-            pointer_elsewhere]
+HARMLESS = [filler, filler, single, protected, protected_call, accumulators, whole, handshake, detached, threshold, threshold_with_copy,
+            shown_and_reset, mailbox, pointer_elsewhere]
 
 
 # --- races ---

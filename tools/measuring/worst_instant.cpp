@@ -245,22 +245,29 @@ struct Outcomes {
   const State &between, &before, &behind;
 };
 
-/// The bytes that the run leaves otherwise than both others; if there are none, and it is like neither of them, those that
-/// tell it from either. Timers run on by themselves: they count only if they are what is shared.
-std::vector<std::uint32_t> bytes_lost(const Outcomes& run, const Bits& shared) {
+bool overlaps_any(const std::vector<Bits>& all, const Bits& bits) {
+  return std::ranges::any_of(all, [&bits](const Bits& each) { return each.overlaps(bits); });
+}
+
+/// Returns the bytes that the run leaves otherwise than both others; if there are none, and the run is like neither of them
+/// in `dependent` memory, the bytes there that tell it from either. Timers run on by themselves: they count only if they are
+/// what is shared.
+std::vector<std::uint32_t> bytes_lost(const Outcomes& run, const Bits& shared, const std::vector<Bits>& dependent) {
   std::vector<std::uint32_t> from_both, from_either;
   bool from_before = false, from_behind = false;
   for (std::uint32_t place = 0; place < image::kL; ++place) {
     if (!is_kept(place) && !Bits{place * 8u, 8}.overlaps(shared)) continue;
     const std::uint8_t value = run.between.image[place];
     const bool as_before = value == run.before.image[place], as_behind = value == run.behind.image[place];
+    if (as_before && as_behind) continue;
+    if (!as_before && !as_behind) from_both.push_back(place);
+    if (!overlaps_any(dependent, {place * 8u, 8})) continue;
     from_before |= !as_before;
     from_behind |= !as_behind;
-    if (!as_before && !as_behind) from_both.push_back(place);
-    if (!as_before || !as_behind) from_either.push_back(place);
+    from_either.push_back(place);
   }
-  if (!from_before || !from_behind) return {};
-  return from_both.empty() ? from_either : from_both;
+  if (!from_both.empty()) return from_both;
+  return from_before && from_behind ? from_either : std::vector<std::uint32_t>();
 }
 
 /// What the program names that a byte is part of: what is shared, or the widest that an instruction accesses.
@@ -334,6 +341,7 @@ class Search {
     std::size_t in_front = first, behind_both = last + 1;
     while (in_front > 0 && !steps[in_front].open) --in_front;
     while (behind_both < steps.size() && !steps[behind_both].open) ++behind_both;
+    const std::vector<Bits> dependent = dependent_memory(steps, first);
     State now = machine_.after(attempt.state(), in_front);
     const State before = machine_.ended(now, interrupt_);
     const State behind = machine_.ended(machine_.after(now, behind_both - in_front), interrupt_);
@@ -342,7 +350,7 @@ class Search {
       now = machine_.after(now, 1);
       if (!steps[at].open) continue;
       const State ended = machine_.ended(now, interrupt_);
-      const auto bytes = bytes_lost({ended, before, behind}, race_.bits);
+      const auto bytes = bytes_lost({ended, before, behind}, race_.bits, dependent);
       if (bytes.empty()) continue;
       const auto places = places_of(inspection_, bytes, race_.bits);
       const auto values = [&places](const State& state) {
@@ -352,6 +360,31 @@ class Search {
                       values(ended),       values(before),   values(behind)};
     }
     return {};
+  }
+
+  /// What is shared, and the memory whose values the rest of the scan works out from it. Parts of a torn word go anywhere.
+  std::vector<Bits> dependent_memory(const std::vector<Machine::Step>& steps, std::size_t first) const {
+    if (race_.kind == Race::Kind::TornRead || race_.kind == Race::Kind::TornWrite) return {{0, image::kL * 8u}};
+    std::vector<Bits> all{race_.bits}, now;
+    const auto is_dependent = [&](const MemoryAccess& access) {
+      return access.reads() && (access.bits.overlaps(race_.bits) || overlaps_any(now, access.bits));
+    };
+    for (std::size_t i = first; i < steps.size(); ++i) {
+      const std::uint32_t op = steps[i].op;
+      if (!steps[i].powered || inspection_.program->ops[op].is_contact) continue;
+      const auto& effects = inspection_.facts.effects[op];
+      const bool depends = std::ranges::any_of(effects, is_dependent);
+      for (const MemoryAccess& access : effects) {
+        const auto is_part = [&access](const Bits& bits) { return access.bits.contains(bits); };
+        const auto has_all = [&access](const Bits& bits) { return bits.contains(access.bits); };
+        if (!depends && access.role == Role::Out && access.certainty == Certainty::Must && !access.by_pointer)
+          std::erase_if(now, is_part);
+        if (!depends || !access.writes()) continue;
+        if (std::ranges::none_of(now, has_all)) now.push_back(access.bits);
+        if (std::ranges::none_of(all, has_all)) all.push_back(access.bits);
+      }
+    }
+    return all;
   }
 
   const Inspection& inspection_;

@@ -35,6 +35,12 @@ TEST(WorstInstant, IsNotThereIfWhatIsWrittenIsRightEitherWay) {
   EXPECT_EQ(text, "no races found\n");
 }
 
+TEST(WorstInstant, IsNotOneThatOnlyOtherMemoryTellsFromBothOrders) {
+  EXPECT_EQ(races_of("LDW>= VW10, 5\nMOVW VW30, VW32\nMOVW 0, VW10\n", "INCW VW10\nINCW VW30\n"), "no races found\n");
+  EXPECT_EQ(races_of("LDW>= VW10, 5\nMOVW VW30, AC0\nMOVW AC0, VW32\nMOVW 0, VW10\n", "INCW VW10\nINCW VW30\n"),
+            "no races found\n");
+}
+
 TEST(WorstInstant, ReadAndClearedIsWhatNobodyHasRead) {
   const std::string text = races_of("LD SM0.0\nMOVW VW10, VW20\nMOVW 0, VW10\n", "INCW VW10\n");
   EXPECT_NE(text.find("overwritten update of VW10"), std::string::npos) << text;
