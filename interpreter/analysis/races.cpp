@@ -198,7 +198,8 @@ class OpsInOrder {
 /// OpsInOrder during which DISI or DTCH surely keeps interrupts away.
 class Protection {
  public:
-  Protection(const Facts& facts, const std::vector<PlacedOp>& steps) : facts_(facts), steps_(steps) {}
+  Protection(const Facts& facts, const Calls& calls, const std::vector<PlacedOp>& steps)
+      : facts_(facts), calls_(calls), steps_(steps) {}
 
   /// Whether no interrupt of an event comes between two steps.
   bool covers(std::size_t first, std::size_t last, std::uint8_t event) const {
@@ -208,11 +209,28 @@ class Protection {
       return op.instruction->structure == Structure::Attach && (op[1].unread() || op[1].at == event);
     };
     const auto detaches = [event](const Op& op) { return op.instruction->mnemonic == "DTCH" && op[0].at == event; };
-    return is_closed(first, last, enables, disables) || is_closed(first, last, attaches, detaches);
+    return is_closed(first, last, enables, disables) ||
+           (!is_attached_by_others(event) && is_closed(first, last, attaches, detaches));
   }
 
  private:
   const Op& op(std::size_t step) const { return facts_.program.ops[steps_[step].op]; }
+
+  /// Whether an interrupt of another event, which comes after a DTCH too, attaches this one again.
+  bool is_attached_by_others(std::uint8_t event) const {
+    return std::ranges::any_of(facts_.flow.attachments, [&](const Attachment& attachment) {
+      std::set<std::uint32_t> seen;
+      return attachment.event.value_or(event) == event &&
+             is_started_by_others(facts_.flow.nodes[attachment.op].routine, event, seen);
+    });
+  }
+  bool is_started_by_others(std::uint32_t routine, std::uint8_t event, std::set<std::uint32_t>& seen) const {
+    if (!seen.insert(routine).second) return false;
+    const Calls::Node& node = calls_.nodes[routine];
+    return std::ranges::any_of(node.events, [event](std::uint8_t each) { return each != event; }) ||
+           std::ranges::any_of(
+               node.called, [&](const CallSite& site) { return is_started_by_others(site.routine, event, seen); });
+  }
 
   template <class Opens, class Closes>
   bool is_closed(std::size_t first, std::size_t last, const Opens& opens, const Closes& closes) const {
@@ -265,6 +283,7 @@ class Protection {
   }
 
   const Facts& facts_;
+  const Calls& calls_;
   const std::vector<PlacedOp>& steps_;
 };
 
@@ -277,7 +296,7 @@ class RaceFinder {
         accesses_(facts),
         first_scan_(ops_of_first_scan(facts.program)),
         steps_(OpsInOrder(facts, calls, accesses_, first_scan_).of(0)),
-        protection_(facts, steps_) {}
+        protection_(facts, calls, steps_) {}
 
   std::vector<Race> all() {
     if (calls_.enabling.empty()) return {};

@@ -200,5 +200,17 @@ TEST(Races, DtchKeepsItsInterruptAway) {
   EXPECT_EQ(after("DTCH 11"), "lost VW10 2-4") << "another event";
 }
 
+TEST(Races, DtchHoldsOnlyIfNoOtherInterruptAttachesTheEventAgain) {
+  constexpr std::string_view kMain =
+      "LD SM0.0\nATCH 1, 11\nDTCH 10\nMOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\nATCH 0, 10\n";
+  const auto with = [&](std::string_view routines, std::string_view interrupt = kCounts) {
+    return races(kMain, interrupt, routines);
+  };
+  EXPECT_EQ(with("INT 1\nLD SM0.0\nATCH 0, 10\nRETI\n"), "lost VW10 3-5");
+  EXPECT_EQ(with("SBR 1\nLD SM0.0\nATCH 0, 10\nRET\nINT 1\nLD SM0.0\nCALL 1\nRETI\n"), "lost VW10 3-5");
+  EXPECT_EQ(with("INT 1\nLD SM0.0\nINCW VW20\nRETI\n"), "");
+  EXPECT_EQ(with("INT 1\nRETI\n", "LD SM0.0\nINCW VW10\nATCH 0, 10\n"), "") << "it does not come itself";
+}
+
 }  // namespace
 }  // namespace s7200::test::races_test
