@@ -146,20 +146,21 @@ class OpsInOrder {
     const auto parameters = std::span(facts_.program.parameters).subspan(now[1].at, now[2].at);
     for (const Parameter& parameter : parameters)
       if (parameter.role != Role::Out)
-        move(op, call, actual(op, parameter, Role::In, depth), local(parameter, Role::Out, depth));
+        move(op, call, actual(op, parameter, Role::In, depth), {local(parameter, Role::Out, depth)});
     expand(site->routine, depth + 1);
     const std::uint32_t ret = facts_.flow.routines[site->routine].end - 1;
     for (const Parameter& parameter : parameters)
       if (parameter.role != Role::In)
-        move(ret, call, local(parameter, Role::In, depth), actual(op, parameter, Role::Out, depth));
+        move(ret, call, {local(parameter, Role::In, depth)}, actual(op, parameter, Role::Out, depth));
   }
 
   void add(std::uint32_t op, std::uint32_t call, std::size_t depth, std::vector<Access> accesses) {
     for (Access& access : accesses) access.bits = at_depth(access.bits, depth);
     steps_.push_back({op, call, std::move(accesses)});
   }
-  void move(std::uint32_t op, std::uint32_t call, const Access& from, const Access& to) {
-    steps_.push_back({op, call, {from, to}});
+  void move(std::uint32_t op, std::uint32_t call, std::vector<Access> from, const std::vector<Access>& to) {
+    from.insert(from.end(), to.begin(), to.end());
+    steps_.push_back({op, call, std::move(from)});
   }
 
   static Bits bits_of(const Operand& operand, Width width) {
@@ -169,16 +170,20 @@ class OpsInOrder {
   Access local(const Parameter& parameter, Role role, std::size_t depth) const {
     return {at_depth(bits_of(parameter.local, parameter.width), depth + 1), role, true, false, false, true};
   }
-  Access actual(std::uint32_t call, const Parameter& parameter, Role role, std::size_t depth) const {
+  /// Of a pointer: each place that it may lead to.
+  std::vector<Access> actual(std::uint32_t call, const Parameter& parameter, Role role, std::size_t depth) const {
     const Operand& operand = parameter.actual;
-    if (operand.unread() || operand.at >= image::kConstants) return {{0, 0}, role};
-    if (!operand.pointer) return {at_depth(bits_of(operand, parameter.width), depth), role, true, false, false, true};
+    if (operand.unread() || operand.at >= image::kConstants) return {};
+    if (!operand.pointer) return {{at_depth(bits_of(operand, parameter.width), depth), role, true, false, false, true}};
     const auto places = facts_.pointers.targets(call, operand.at);
-    if (places.empty()) return {{0, 0}, role};
-    const Bits bits{places.front().from * kBitsOfByte,
-                    (places.front().to - 1 - places.front().from + bytes_of(parameter.width)) * kBitsOfByte};
-    const bool somewhere = places.size() != 1 || places.front().to != places.front().from + 1;
-    return {bits, role, !somewhere, somewhere, false, true, operand.at};
+    std::vector<Access> all;
+    for (const PointerTarget& place : places) {
+      const Bits bits{place.from * kBitsOfByte, (place.to - 1 - place.from + bytes_of(parameter.width)) * kBitsOfByte};
+      const bool somewhere = places.size() != 1 || place.to != place.from + 1;
+      const bool anywhere = is_anywhere(facts_.program, {bits, role, Certainty::May, kNoOperand, true});
+      all.push_back({bits, role, !somewhere, somewhere, anywhere, true, operand.at});
+    }
+    return all;
   }
 
   /// Each routine has local memory of its own.

@@ -97,6 +97,22 @@ TEST(Races, ASubroutineThatHandsSomethingBackDoesNotEndWhatDisiCovers) {
   EXPECT_EQ(of("LD I0.0\n", kUpdate.substr(5)), "lost VW10 2-4");
 }
 
+TEST(Races, AParameterThatAPointerLeadsToIsAnyOfItsPlaces) {
+  constexpr std::string_view kPointer = "LD I0.1\nMOVD &VB10, AC1\nLDN I0.1\nMOVD &VB20, AC1\nLD SM0.0\n";
+  const auto of = [&](std::string_view interrupt) {
+    return races_with_parameter(std::string(kPointer) + "CALL Work, *AC1\n", interrupt, "VAR_IN_OUT", "LD SM0.0\nINCW #x\n");
+  };
+  EXPECT_EQ(of(kCounts).substr(0, 10), "lost? VW10");
+  EXPECT_EQ(of("LD SM0.0\nINCW VW20\n").substr(0, 10), "lost? VW20");
+  EXPECT_EQ(of("LD SM0.0\nINCW VW30\n"), "");
+  constexpr std::string_view kUpdate = "LD I0.0\nMOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\n",
+                             kIncrement = "LD SM0.0\nINCW #x\n";
+  EXPECT_EQ(races_with_parameter(kUpdate, "LD SM0.0\nMOVD &VB10, AC1\nCALL Work, *AC1\n", "VAR_IN_OUT", kIncrement),
+            "lost VW10 1-3");
+  EXPECT_EQ(races_with_parameter(kUpdate, "LD SM0.0\nMOVD VD100, AC1\nCALL Work, *AC1\n", "VAR_IN_OUT", kIncrement), "")
+      << "it may lead anywhere";
+}
+
 TEST(Races, PointersLeadToThem) {
   EXPECT_EQ(races("LD I0.0\nMOVD &VB10, AC1\nMOVW *AC1, AC0\nINCW AC0\nMOVW AC0, *AC1\n", kCounts), "lost VW10 2-4");
   EXPECT_EQ(races("LD I0.0\nMOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\n", "LD SM0.0\nMOVD &VB10, AC1\nINCW *AC1\n"),
