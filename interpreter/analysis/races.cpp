@@ -300,11 +300,11 @@ class RaceFinder {
         waiter_(waiter),
         accesses_(facts),
         first_scan_(ops_of_first_scan(facts.program)),
-        steps_(OpsInOrder(facts, calls, accesses_, first_scan_).of(0)),
         protection_(facts, calls, steps_) {}
 
   std::vector<Race> all() {
     if (calls_.enabling.empty()) return {};
+    steps_ = OpsInOrder(facts_, calls_, accesses_, first_scan_).of(0);
     for (std::uint32_t i = 0; i < calls_.nodes.size(); ++i)
       if (!calls_.nodes[i].events.empty()) with_interrupt(i);
     std::ranges::sort(races_, {}, [](const Race& race) { return std::tuple(race.first, race.last, race.interrupt); });
@@ -321,10 +321,13 @@ class RaceFinder {
   void with_interrupt(std::uint32_t routine) {
     interrupt_ = routine;
     foreign_.clear();
+    std::set<std::tuple<std::uint32_t, std::uint64_t, std::uint64_t, Role>> known;  // a routine may be called often
     const std::vector<bool> nothing(facts_.program.ops.size());
     for (const PlacedOp& step : OpsInOrder(facts_, calls_, accesses_, nothing).of(routine))
       for (const Access& access : step.accesses)
-        if (access.bits.count != 0 && !access.anywhere && is_shared(access.bits)) foreign_.push_back({step.op, access});
+        if (access.bits.count != 0 && !access.anywhere && is_shared(access.bits) &&
+            known.emplace(step.op, access.bits.first, access.bits.count, access.role).second)
+          foreign_.push_back({step.op, access});
     if (foreign_.empty()) return;
     for (std::size_t step = 0; step < steps_.size() && !waiter_.asks_to_end(); ++step) {
       if (is_unread(op(step))) continue;
@@ -538,13 +541,14 @@ class RaceFinder {
   }
 
   /// Whether the main program reads some memory in front of all that it writes there.
-  bool is_read_first(const Bits& bits) const {
-    for (std::size_t step = 0; step < steps_.size(); ++step)
+  bool is_read_first(const Bits& bits) {
+    const auto [answer, is_new] = read_first_.try_emplace({bits.first, bits.count}, false);
+    for (std::size_t step = 0; is_new && step < steps_.size(); ++step)
       for (const Access& access : steps_[step].accesses) {
         if (!access.bits.overlaps(bits) || access.somewhere || is_of_first_scan(step)) continue;
-        return access.reads();
+        return answer->second = access.reads();
       }
-    return false;
+    return answer->second;
   }
 
   // --- parts ---
@@ -589,10 +593,11 @@ class RaceFinder {
   const Waiter& waiter_;
   Accesses accesses_;
   std::vector<bool> first_scan_;
-  std::vector<PlacedOp> steps_;  // of the main program
+  std::vector<PlacedOp> steps_{};  // of the main program
   Protection protection_;
   std::uint32_t interrupt_ = 0;
   std::vector<Foreign> foreign_{};
+  std::map<std::pair<std::uint64_t, std::uint64_t>, bool> read_first_{};  // what is_read_first() has answered
   std::vector<Race> races_{};
 };
 

@@ -207,6 +207,19 @@ TEST(Races, AStringMayHaveWhatTheOtherSideWrites) {
   EXPECT_EQ(races("LD SM0.0\nSCPY VB100, VB200\nSCPY VB200, VB100\n", "LD SM0.0\nINCB VB101\n"), "lost? VB101 1-2");
 }
 
+TEST(Races, WhatAnInterruptCallsOftenIsLookedAtOnce) {
+  const auto looks = [](std::size_t calls) {
+    std::string stl = "LD SM0.1\nATCH 0, 10\nENI\nMEND\nSBR 1\nLD SM0.0\nINCW VW10\nRET\nINT 0\nLD SM0.0\n";
+    for (std::size_t i = 0; i < calls; ++i) stl += "CALL 1\n";
+    const auto program = program_of(stl + "RETI\n", *find_cpu("224"));
+    const Facts facts = facts_of(*program);
+    std::size_t count = 0;
+    find_races(facts, calls_of(*program, facts.flow), {.goes_on = [&count] { ++count; }});
+    return count;
+  };
+  EXPECT_EQ(looks(1), looks(50));
+}
+
 TEST(Races, DtchKeepsItsInterruptAway) {
   constexpr std::string_view kUpdate = "MOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\n";
   const auto after = [&](std::string_view first) {
