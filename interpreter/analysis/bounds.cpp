@@ -71,6 +71,7 @@ class BoundsBuilder {
       all.back().period =
           std::max(timed_.model->shortest_timed_interval, *std::ranges::max_element(*written) * kMillisecond);
     }
+    if (waiter_.stop.stop_requested()) return {};
     return all;
   }
 

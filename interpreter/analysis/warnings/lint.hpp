@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "interpreter/analysis/effects/facts.hpp"
+#include "interpreter/analysis/waiter.hpp"
 #include "interpreter/base/diagnostic.hpp"
 
 namespace s7200 {
@@ -41,8 +42,8 @@ void find_double_counters(const Facts& facts, stl::Diagnostics& diagnostics);
 void find_double_loops(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// A timed interrupt that takes longer than its period leaves no time for the main program, and is lost now and then. By the
-/// longest way through its routine (bounds.hpp).
-void find_long_interrupts(const Facts& facts, stl::Diagnostics& diagnostics);
+/// longest way through its routine (bounds.hpp). If `waiter` asks to end, there is none.
+void find_long_interrupts(const Facts& facts, stl::Diagnostics& diagnostics, const Waiter& waiter = {});
 
 /// Interrupts are disabled when the CPU enters RUN (facts 3.3).
 void find_missing_eni(const Facts& facts, stl::Diagnostics& diagnostics);

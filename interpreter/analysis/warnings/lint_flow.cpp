@@ -192,12 +192,12 @@ void find_skipped_timers(const Facts& facts, stl::Diagnostics& diagnostics) {
   }
 }
 
-void find_long_interrupts(const Facts& facts, stl::Diagnostics& diagnostics) {
+void find_long_interrupts(const Facts& facts, stl::Diagnostics& diagnostics, const Waiter& waiter) {
   const Program& program = facts.program;
   if (has_unread(program) || program.times.rows().empty()) return;
   const Calls calls = calls_of(program, facts.flow);
   const auto ms = [](Time time) { return fmt::format("{:.1f} ms", static_cast<double>(time) / kMillisecond); };
-  for (const Bounds::OfEvent& event : timed_interrupts(facts, calls)) {
+  for (const Bounds::OfEvent& event : timed_interrupts(facts, calls, waiter)) {
     if (event.longest_routine <= event.period) continue;
     const auto use = std::ranges::find(calls.events, event.event, &EventUse::number);
     diagnostics.push_back(

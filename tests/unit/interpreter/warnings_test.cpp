@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <set>
 
 #include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/analysis/warnings/lint.hpp"
+#include "interpreter/program/checking/checker.hpp"
 #include "interpreter/program/load.hpp"
 #include "tests/support/source_path.hpp"
 #include "tools/host/files/files.hpp"
@@ -174,6 +176,23 @@ TEST(LongInterrupt, IsATimedOneThatTakesLongerThanItsPeriod) {
   EXPECT_EQ(of("5", "5"), "");
   EXPECT_EQ(of("255", "500"), "");
   EXPECT_EQ(of("VB0", "500"), "") << "nobody knows the period";
+}
+
+TEST(LongInterrupt, IsNotLookedForAnyMoreIfSomebodyStopsIt) {
+  const auto decoded =
+      decode_program(read_text("LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nMEND\n"
+                               "INT 0\nLD SM0.0\nFOR VW910, 1, 500\nLD SM0.0\n*R 1.0, VD912\nNEXT\nRETI\n",
+                               "test"),
+                     *find_cpu("224"), default_times(*find_cpu("224")));
+  const Facts facts = facts_of(*decoded.known);
+  const auto found = [&facts](bool stops) {
+    std::atomic<bool> stop = false;
+    stl::Diagnostics diagnostics;
+    find_long_interrupts(facts, diagnostics, {.stop = StopToken(stop), .goes_on = [&] { stop = stops; }});
+    return diagnostics.size();
+  };
+  EXPECT_EQ(found(false), 1u);
+  EXPECT_EQ(found(true), 0u);
 }
 
 // --- double-timer, double-counter ---
