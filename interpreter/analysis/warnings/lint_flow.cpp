@@ -202,7 +202,7 @@ void find_long_interrupts(const Facts& facts, stl::Diagnostics& diagnostics, con
     const auto use = std::ranges::find(calls.events, event.event, &EventUse::number);
     diagnostics.push_back(
         warn(Warning::LongInterrupt, place(program, use->attached.front().op),
-             fmt::format("event {} comes every {}, and its routine can take {}: the main program gets no time, "
+             fmt::format("event {} comes every {}, and its routine can take {}: then the main program gets no time, "
                          "and events are lost",
                          event.event, ms(*event.period), ms(event.longest_routine)),
              "work in the main program on what the interrupt notes, or let it come less often"));
