@@ -63,13 +63,12 @@ class BoundsBuilder {
     std::vector<Bounds::OfEvent> all;
     for (const EventUse& use : calls_.events) {
       if (!is_timed(use.number) || use.attached.empty()) continue;
-      const auto written = constants_written(facts_, sm::kTimedInterval[use.number - event::kTimed0], Width::Byte);
-      if (!written || written->empty()) continue;
+      const auto periods = timed_periods(use.number - event::kTimed0);
+      if (!periods) continue;
       for (const Attachment& attachment : use.attached)
         if (attachment.routine) measure(*attachment.routine);
       all.push_back(event(use));
-      all.back().period =
-          std::max(timed_.model->shortest_timed_interval, *std::ranges::max_element(*written) * kMillisecond);
+      all.back().period = periods->second;
     }
     if (waiter_.stop.stop_requested()) return {};
     return all;
@@ -167,11 +166,13 @@ class BoundsBuilder {
 
   // --- interrupts ---
 
-  Time timed_period(std::size_t timer) const {
-    const Time shortest = timed_.model->shortest_timed_interval;
+  /// Returns the shortest and the longest period that the program sets; nothing if they are unknown.
+  std::optional<std::pair<Time, Time>> timed_periods(std::size_t timer) const {
     const auto written = constants_written(facts_, sm::kTimedInterval[timer], Width::Byte);
-    if (!written || written->empty()) return shortest;
-    return std::max(shortest, *std::ranges::min_element(*written) * kMillisecond);
+    if (!written || written->empty()) return {};
+    const Time shortest = timed_.model->shortest_timed_interval;
+    const auto [least, most] = std::ranges::minmax(*written);
+    return std::pair(std::max(shortest, least * kMillisecond), std::max(shortest, most * kMillisecond));
   }
 
   /// The time of a character in the fastest format that the port is given.
@@ -197,8 +198,10 @@ class BoundsBuilder {
     if (found != kPorts.end()) return character_time(static_cast<std::size_t>(found - kPorts.begin()));
     switch (number) {
       case event::kTimed0:
-      case event::kTimed1:
-        return timed_period(number - event::kTimed0);
+      case event::kTimed1: {
+        const auto periods = timed_periods(number - event::kTimed0);
+        return periods ? periods->first : timed_.model->shortest_timed_interval;
+      }
       case event::kT32Reached:
       case event::kT96Reached:
         return kMillisecond;

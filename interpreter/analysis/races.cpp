@@ -21,9 +21,9 @@ namespace {
 
 constexpr std::uint64_t kBitsOfByte = 8, kBitsOfWord = 16, kBitsOfDouble = 32;
 constexpr std::size_t kFarthest = 300;                          ///< steps between a read and a write that depends on it
-constexpr std::size_t kMostSteps = 60'000;                      ///< of a program with its subroutines where they are called
-constexpr std::size_t kMostDepth = 8;                           ///< calls in each other
-constexpr std::uint64_t kMostBits = kBitsOfByte * 255;          ///< that a block has
+constexpr std::size_t kMostSteps = 60'000;                      ///< the most steps into which a program is unfolded
+constexpr std::size_t kMostDepth = 8;                           ///< the deepest nesting of calls that is followed
+constexpr std::uint64_t kMostBits = kBitsOfByte * 255;          ///< the longest block of an instruction, in bits
 constexpr std::uint64_t kBitsOfFrame = std::uint64_t{1} << 40;  ///< more than the image has
 
 bool is_shared(const Bits& bits) {
@@ -200,7 +200,7 @@ class OpsInOrder {
   std::uint32_t count_ = 0;
 };
 
-/// OpsInOrder during which DISI or DTCH surely keeps interrupts away.
+/// Tells during which steps DISI or DTCH surely keeps interrupts away.
 class Protection {
  public:
   Protection(const Facts& facts, const Calls& calls, const std::vector<PlacedOp>& steps)

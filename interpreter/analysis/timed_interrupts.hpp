@@ -7,8 +7,8 @@
 
 namespace s7200 {
 
-/// Of attached timed interrupts, event 10 and 11: how long their routines take, and the longest period that the program
-/// sets. Those of which that is not known are left out; there is no latency. Empty if `waiter` asks to end.
+/// Returns, for events 10 and 11 if attached, how long their routines take and the longest period that the program sets.
+/// Leaves out events whose period is unknown. `latency` is not set. Empty if `waiter` asks to end.
 std::vector<Bounds::OfEvent> timed_interrupts(const Facts& facts, const Calls& calls, const Waiter& waiter = {});
 
 }  // namespace s7200
