@@ -233,8 +233,8 @@ class Protection {
     if (!seen.insert(routine).second) return false;
     const Calls::Node& node = calls_.nodes[routine];
     return std::ranges::any_of(node.events, [event](std::uint8_t each) { return each != event; }) ||
-           std::ranges::any_of(
-               node.called, [&](const CallSite& site) { return is_started_by_others(site.routine, event, seen); });
+           std::ranges::any_of(node.called,
+                               [&](const CallSite& site) { return is_started_by_others(site.routine, event, seen); });
   }
 
   template <class Opens, class Closes>
@@ -283,8 +283,7 @@ class Protection {
   /// Whether a step is of the same execution of the same routine. What hands parameters back is not: its op is the RET.
   bool is_beside(std::size_t step, std::size_t closing) const {
     const auto& nodes = facts_.flow.nodes;
-    return steps_[step].call == steps_[closing].call &&
-           nodes[steps_[step].op].routine == nodes[steps_[closing].op].routine;
+    return steps_[step].call == steps_[closing].call && nodes[steps_[step].op].routine == nodes[steps_[closing].op].routine;
   }
 
   const Facts& facts_;

@@ -219,12 +219,12 @@ void find_constant_contacts(const Facts& facts, stl::Diagnostics& diagnostics) {
     const bool never = mnemonic == "AN" || mnemonic == "ON" || (mnemonic == "LDN" && !joined.empty());
     if (!never && mnemonic != "O" && !(mnemonic == "LD" && joined.starts_with('O'))) continue;
     const bool begins = mnemonic.starts_with("LD");
-    diagnostics.push_back(
-        warn(Warning::ConstantContact, place(program, i),
-             never ? "SM0.0 is always 1: this contact never closes"
-                   : "SM0.0 is always 1: what this contact is in parallel with has no effect",
-             begins ? "take out the contact and begin the rung with the next one, or take out the rung if it is not meant to work"
-                    : "take out the contact, or the rung if it is not meant to work"));
+    diagnostics.push_back(warn(
+        Warning::ConstantContact, place(program, i),
+        never ? "SM0.0 is always 1: this contact never closes"
+              : "SM0.0 is always 1: what this contact is in parallel with has no effect",
+        begins ? "take out the contact and begin the rung with the next one, or take out the rung if it is not meant to work"
+               : "take out the contact, or the rung if it is not meant to work"));
   }
 }
 

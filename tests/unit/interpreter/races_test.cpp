@@ -80,9 +80,8 @@ TEST(Races, DisiInASubroutineKeepsTheInterruptAwayIfTheSubroutineIsSurelyCalled)
     EXPECT_EQ(after("LD SM0.0\nCALL 2\n", one + "SBR 2\nLD I0.0\nCRET\nLD SM0.0\nCALL 1\nRET\n"), "lost VW10 3-5") << away;
     EXPECT_EQ(after("LD SM0.0\nCALL 2\n", one + "SBR 2\nLD SM0.0\nCALL 1\nRET\n"), "") << away;
   }
-  EXPECT_EQ(races("LD I0.0\nCALL 1\nMOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\nENI\n", kCounts,
-                  "SBR 1\nLD SM0.0\nDISI\nRET\n"),
-            "")
+  EXPECT_EQ(
+      races("LD I0.0\nCALL 1\nMOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\nENI\n", kCounts, "SBR 1\nLD SM0.0\nDISI\nRET\n"), "")
       << "in the rung of the CALL";
 }
 
@@ -230,8 +229,7 @@ TEST(Races, DtchKeepsItsInterruptAway) {
 }
 
 TEST(Races, DtchHoldsOnlyIfNoOtherInterruptAttachesTheEventAgain) {
-  constexpr std::string_view kMain =
-      "LD SM0.0\nATCH 1, 11\nDTCH 10\nMOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\nATCH 0, 10\n";
+  constexpr std::string_view kMain = "LD SM0.0\nATCH 1, 11\nDTCH 10\nMOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\nATCH 0, 10\n";
   const auto with = [&](std::string_view routines, std::string_view interrupt = kCounts) {
     return races(kMain, interrupt, routines);
   };

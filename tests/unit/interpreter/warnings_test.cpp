@@ -179,11 +179,10 @@ TEST(LongInterrupt, IsATimedOneThatTakesLongerThanItsPeriod) {
 }
 
 TEST(LongInterrupt, IsNotLookedForAnyMoreIfSomebodyStopsIt) {
-  const auto decoded =
-      decode_program(read_text("LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nMEND\n"
-                               "INT 0\nLD SM0.0\nFOR VW910, 1, 500\nLD SM0.0\n*R 1.0, VD912\nNEXT\nRETI\n",
-                               "test"),
-                     *find_cpu("224"), default_times(*find_cpu("224")));
+  const auto decoded = decode_program(read_text("LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nMEND\n"
+                                                "INT 0\nLD SM0.0\nFOR VW910, 1, 500\nLD SM0.0\n*R 1.0, VD912\nNEXT\nRETI\n",
+                                                "test"),
+                                      *find_cpu("224"), default_times(*find_cpu("224")));
   const Facts facts = facts_of(*decoded.known);
   const auto found = [&facts](bool stops) {
     std::atomic<bool> stop = false;
