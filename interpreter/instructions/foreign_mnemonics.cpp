@@ -142,7 +142,7 @@ constexpr ForeignRow kForeignRows[] = {
     {"ORF",   kMitsubishi, "write LD, ED, then OLD"},
     {"PLF",   kMitsubishi, "write ED, then ="},
     {"TMR",   kOther,      "write TON"},
-    {"TIM",   kOmron,      "write TON; it counts the steps of its timer, 100 ms are 10 of one of 10 ms"},
+    {"TIM",   kOmron,      "write TON; TIM counts steps of 100 ms: keep the preset with a timer of 100 ms, or multiply it by 10 with one of 10 ms"},
     {"DIFU",  kOmron,      "write EU, then ="},
     {"DIFD",  kOmron,      "write ED, then ="},
     {"KEEP",  kOmron,      "write S BIT, 1 for its set input, then R BIT, 1 for its reset input: the last has priority"},
@@ -286,14 +286,21 @@ std::vector<std::string_view> nearest_mnemonics(std::string_view mnemonic) {
   return all_nearest(mnemonic, kMnemonics, mnemonic.size() < kLong ? 1 : 2);
 }
 
+/// `LDS= or LDS<>`, `LDB=, LDB<>, LDB>=, LDB<=, LDB> or LDB<`
+template <class Names>
+std::string alternatives(const Names& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text.append(i == 0 ? "" : i + 1 == names.size() ? " or " : ", ").append(names[i]);
+  return text;
+}
+
 /// The question `did you mean MOVW (IN to OUT)?`, with the operands, so that nobody takes another instruction for the
 /// intended one; of several, all are named, since any of them can be meant.
 std::string question_about(const std::vector<std::string_view>& mnemonics) {
   constexpr std::size_t kMost = 4;
   if (mnemonics.empty() || mnemonics.size() > kMost) return {};
-  std::string question = "did you mean ";
-  for (std::size_t i = 0; i < mnemonics.size(); ++i)
-    question.append(i == 0 ? "" : i + 1 == mnemonics.size() ? " or " : ", ").append(mnemonics[i]);
+  std::string question = "did you mean " + alternatives(mnemonics);
   if (mnemonics.size() == 1) question.append(" (").append(find_instruction(mnemonics.front())->meaning).append(")");
   return question + "?";
 }
@@ -358,13 +365,17 @@ std::optional<UnknownMnemonic> comparison_without_sign(std::string_view mnemonic
   for (const std::string_view contact : {"LD", "A", "O"}) {
     if (!mnemonic.starts_with(contact) || mnemonic.size() == contact.size()) continue;
     const std::string_view base = mnemonic.substr(0, contact.size() + 1), after = mnemonic.substr(base.size());
-    if (!find_instruction(std::string(base) + "=")) continue;
-    if (after.empty())
-      return UnknownMnemonic{"a comparison without its relation",
-                             fmt::format("write {0}=, {0}<>, {0}>=, {0}<=, {0}> or {0}<", base)};
+    std::vector<std::string> all;  // of strings there are two
+    for (const RelationWord& each : kRelationWords)
+      if (find_instruction(fmt::format("{}{}", base, each.relation))) all.push_back(fmt::format("{}{}", base, each.relation));
+    if (all.empty()) continue;
+    if (after.empty()) return UnknownMnemonic{"a comparison without its relation", "write " + alternatives(all)};
     const auto* const row = std::ranges::find(kRelationWords, after, &RelationWord::word);
-    if (row != std::end(kRelationWords))
-      return UnknownMnemonic{"a comparison in another form", fmt::format("write {}{}", base, row->relation)};
+    if (row == std::end(kRelationWords)) continue;
+    const bool exists = std::ranges::find(all, fmt::format("{}{}", base, row->relation)) != all.end();
+    return UnknownMnemonic{"a comparison in another form",
+                           exists ? fmt::format("write {}{}", base, row->relation)
+                                  : fmt::format("write {}", alternatives(all))};
   }
   return std::nullopt;
 }

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -589,10 +590,64 @@ std::string bit_hint(const Address& address, std::optional<std::uint8_t> bit) {
 
 constexpr const char* kOutOfPlace = "block keyword out of place";
 
+/// The names by which a text calls and attaches routines, and the numbers of its headings; gathered when first asked for.
+class NamedRoutines {
+ public:
+  /// `lines` must live as long as this.
+  explicit NamedRoutines(const std::vector<std::string>& lines) : lines_(lines) {}
+
+  /// What the first CALL or ATCH of that name takes it for; nothing without one.
+  std::optional<Block::Kind> kind_of(std::string_view name) {
+    if (!gathered_) gather();
+    const auto found = called_.find(upper_case(name));
+    return found == called_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  /// The first number for which the text has no heading of a routine. After kind_of().
+  std::uint32_t first_free(Block::Kind kind) const {
+    std::uint32_t free = 0;
+    while (taken_.contains({kind, free})) ++free;
+    return free;
+  }
+
+ private:
+  void gather() {
+    gathered_ = true;
+    for (const std::string& line : lines_) {
+      const std::string code = upper_case(line.substr(0, comment_start(line)));
+      const std::vector<std::string> written = split_words(code);
+      const bool calls = !written.empty() && written[0] == "CALL", attaches = !written.empty() && written[0] == "ATCH";
+      if (written.size() > 1 && (calls || attaches))
+        called_.emplace(written[1].substr(0, written[1].find(',')),
+                        calls ? Block::Kind::Subroutine : Block::Kind::Interrupt);
+      note_heading(code);
+    }
+  }
+
+  void note_heading(std::string_view code) {
+    const std::string_view head = code.substr(0, code.find(':'));
+    const std::vector<std::string> written = split_words(head);
+    for (const Block::Kind kind : {Block::Kind::Subroutine, Block::Kind::Interrupt})
+      if (written.size() == 2 && written[0] == words(kind).head)
+        taken_.emplace(kind, number_of<std::uint32_t>(written[1]).value_or(0));
+    if (const auto routine = routine_heading(head)) taken_.emplace(routine->kind, routine->number);
+  }
+
+  const std::vector<std::string>& lines_;
+  bool gathered_ = false;
+  std::map<std::string, Block::Kind> called_{};  ///< by name in capitals
+  std::set<std::pair<Block::Kind, std::uint32_t>> taken_{};
+};
+
 class LineReader {
  public:
-  LineReader(const JoinedLines& lines, ParseResult& result)
-      : lines_(lines), text_(lines.text), number_(lines.starts.front().line), places_(lines), result_(result) {}
+  LineReader(const JoinedLines& lines, NamedRoutines& routines, ParseResult& result)
+      : lines_(lines),
+        text_(lines.text),
+        number_(lines.starts.front().line),
+        places_(lines),
+        routines_(routines),
+        result_(result) {}
 
   /// Returns true inside VAR … END_VAR; the message about VAR covers these lines.
   bool read(bool in_declarations) {
@@ -639,10 +694,14 @@ class LineReader {
     return name.starts_with("VAR");
   }
 
-  /// The place of the colon in `SBR_0: LD I0.1`; 0 in any other line.
+  /// The place of the colon in `SBR_0: LD I0.1`; 0 in any other line, as with a title, `INT_0: Stop`.
   std::size_t heading_before_statement() const {
-    const std::size_t colon = text_.substr(0, comment_start(text_)).find(':');
-    if (colon == std::string_view::npos || trim(text_.substr(colon + 1)).empty() || lines_.starts.size() > 1) return 0;
+    const std::string_view code = text_.substr(0, comment_start(text_));
+    const std::size_t colon = code.find(':');
+    if (colon == std::string_view::npos || lines_.starts.size() > 1) return 0;
+    const std::string_view after = trim(code.substr(colon + 1)), first = after.substr(0, after.find_first_of(" \t"));
+    const bool is_word = std::ranges::any_of(first, is_lower) && std::ranges::any_of(first, is_upper);
+    if (is_word || std::ranges::none_of(after, is_digit)) return 0;
     return routine_heading(text_.substr(0, colon)) && trim(text_.substr(0, colon)).find(' ') == std::string_view::npos
                ? colon
                : 0;
@@ -652,7 +711,7 @@ class LineReader {
     add_heading(*routine_heading(text_.substr(0, colon)), text_.substr(0, colon));
     std::string rest(text_);
     std::fill_n(rest.begin(), colon + 1, ' ');
-    LineReader({rest, {}, lines_.starts}, result_).read(false);
+    LineReader({rest, {}, lines_.starts}, routines_, result_).read_line();
   }
 
   /// The code of `line` is the heading.
@@ -907,34 +966,12 @@ class LineReader {
     return true;
   }
 
-  /// The first number for which the text has no heading of a routine.
-  std::uint32_t first_free(Block::Kind kind) const {
-    std::set<std::uint32_t> taken;
-    for (const std::string& line : result_.source.text) {
-      const std::string_view code = trim(line);
-      const std::vector<std::string> written = split_words(code.substr(0, code.find_first_of(":/")));
-      if (written.size() == 2 && upper_case(written[0]) == words(kind).head)
-        taken.insert(number_of<std::uint32_t>(written[1]).value_or(0));
-      if (const auto routine = routine_heading(code.substr(0, code.find(':'))); routine && routine->kind == kind)
-        taken.insert(routine->number);
-    }
-    std::uint32_t free = 0;
-    while (taken.contains(free)) ++free;
-    return free;
-  }
-
   /// Reports `Init:` in a listing with `CALL Init`. Returns true after a message.
   bool report_called_name(std::string_view name) {
-    const std::string capitals = upper_case(name);
-    const auto starts = [&](const std::string& line) {
-      const std::vector<std::string> words = split_words(upper_case(line.substr(0, comment_start(line))));
-      return words.size() > 1 && (words[0] == "CALL" || words[0] == "ATCH") &&
-             words[1].substr(0, words[1].find(',')) == capitals;
-    };
-    const auto call = std::ranges::find_if(result_.source.text, starts);
-    if (call == result_.source.text.end()) return false;
-    const bool calls = upper_case(trim(*call)).starts_with("CALL");
-    const auto free = first_free(calls ? Block::Kind::Subroutine : Block::Kind::Interrupt);
+    const auto kind = routines_.kind_of(name);
+    if (!kind) return false;
+    const bool calls = *kind == Block::Kind::Subroutine;
+    const std::uint32_t free = routines_.first_free(*kind);
     report(position(Range(name.data(), name.data() + name.size())),
            fmt::format("{} is the name of {}, which a listing numbers", shortened(name),
                        calls ? "a subroutine" : "an interrupt routine"),
@@ -1093,7 +1130,7 @@ class LineReader {
     if (lines_.starts.size() > 1) return;
     std::string text(text_);
     text.replace(static_cast<std::size_t>(word.data() - text_.data()), word.size(), meant);
-    LineReader({text, {}, lines_.starts}, result_).read(false);
+    LineReader({text, {}, lines_.starts}, routines_, result_).read(false);
   }
 
   /// Reports `LD I0.0 ; start button`. Returns true after a message.
@@ -1170,6 +1207,7 @@ class LineReader {
   std::string_view text_;
   std::uint32_t number_;  // of the first line
   Places places_;
+  NamedRoutines& routines_;
   ParseResult& result_;
   std::size_t errors_ = 0;
 };
@@ -1239,11 +1277,12 @@ ParseResult parse_lines(std::string_view text, std::string name) {
   result.source.text = split_lines(text);
   result.source.lines.reserve(result.source.text.size());
   const std::vector<std::string>& lines = result.source.text;
+  NamedRoutines routines(lines);
   bool in_declarations = false;
   for (std::size_t first = 0; first < lines.size();) {
     const std::size_t after = after_statement(lines, first);
     std::string joined;
-    in_declarations = LineReader(join(lines, first, after, joined), result).read(in_declarations);
+    in_declarations = LineReader(join(lines, first, after, joined), routines, result).read(in_declarations);
     first = after;
   }
   return result;
@@ -1275,7 +1314,8 @@ std::string new_lines_with(const std::vector<std::string>& later) {
 Result<Operand> parse_operand(std::string_view text) {
   ParseResult result;
   const JoinedLines line{text, {}, {{0, 1}}};
-  auto operand = LineReader(line, result).read_operand();
+  NamedRoutines routines(result.source.text);
+  auto operand = LineReader(line, routines, result).read_operand();
   std::erase_if(result.diagnostics, [](const Diagnostic& d) { return d.cause == kGermanAddresses; });
   if (!result.diagnostics.empty()) return Trouble{result.diagnostics.front().message};
   if (!operand) return std::nullopt;

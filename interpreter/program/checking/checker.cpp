@@ -51,8 +51,10 @@ class Checker {
       : source_(source), diagnostics_(std::move(diagnostics)), model_(model) {
     for (const stl::Block& block : source_.blocks)
       if (block.kind == stl::Block::Kind::Subroutine) subroutine_blocks_.emplace(block.number, &block);
-    for (const stl::Diagnostic& diagnostic : diagnostics_)
+    for (const stl::Diagnostic& diagnostic : diagnostics_) {
       if (diagnostic.severity == stl::Severity::Error) unread_lines_.insert(diagnostic.position.line);
+      causes_read_.insert(diagnostic.cause);
+    }
   }
 
   /// All of a DecodedSource but its source.
@@ -361,8 +363,7 @@ class Checker {
     return true;
   }
 
-  /// `+I VW0, VW2, VW4`; parameters for a subroutine without any. True after a
-  /// message.
+  /// `+I VW0, VW2, VW4`; parameters for a subroutine without any. True after a message.
   bool has_operands_of_another(const Instruction& instruction, const stl::Statement& statement) {
     const std::size_t given = statement.operands.size();
     if (instruction.structure == Structure::Call && given > 1) {
@@ -544,7 +545,7 @@ class Checker {
     const auto named = missing_callee(instruction, statement);
     if (!name && named) name = &*named;
     if (!name || !name->reason.starts_with("there is no")) return false;
-    if (std::ranges::find(diagnostics_, name->reason, &stl::Diagnostic::cause) != diagnostics_.end()) return true;
+    if (causes_read_.contains(name->reason)) return true;
     if (instruction.structure == Structure::Attach) {
       error(statement.operands[0].position, name->reason, "give the file with its block too");
       return true;
@@ -974,6 +975,7 @@ class Checker {
   std::uint32_t edges_ = 0;
   bool begins_network_ = false;                                  // the next statement
   std::set<std::uint32_t> unread_lines_;                         // of errors of the parser, below the line that is read
+  std::set<std::string, std::less<>> causes_read_{};              // of messages of the parser and of tables
   std::deque<stl::Statement> unread_;                            // in their places among statements_
   std::set<std::pair<std::uint32_t, std::uint32_t>> misplaced_;  // lines and columns where the structure has errors
 };

@@ -392,10 +392,13 @@ bool is_logo_block(std::string_view line) {
   return line.starts_with('B') && digits == 4 && line[digits] == '(' && line.find(')', digits) != line.npos;
 }
 
-/// `:U E 1.0`, `0002 :BE`, `:L KF +10`: a line of STEP 5.
+/// `:U E 1.0`, `0002 :BE`, `:L KF +10`: a line of STEP 5. `2: = Q0.0` is a numbered one of a listing: in STEP 5 a blank is
+/// before the colon and none behind it.
 bool is_step5(std::string_view code) {
-  code = stl::trim(code.substr(std::min(code.find_first_not_of("0123456789"), code.size())));
-  if (!code.starts_with(':')) return false;
+  const std::size_t digits = std::min(code.find_first_not_of("0123456789"), code.size());
+  if (digits > 0 && (digits == code.size() || !stl::is_blank(code[digits]))) return false;
+  code = stl::trim(code.substr(digits));
+  if (code.size() < 2 || code[0] != ':' || stl::is_blank(code[1])) return false;
   const std::vector<std::string> words = stl::split_words(stl::upper_case(code.substr(1)));
   return !words.empty() &&
          is_among(words[0], {"U", "UN", "O", "ON", "=", "S", "R", "L", "T", "BE", "BEA", "BEB", "SPA", "SPB", "U(", "O("});

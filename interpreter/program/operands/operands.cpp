@@ -442,7 +442,8 @@ class Placing {
     if (rule_.real && (upper == "NAN" || upper == "INF" || upper == "INFINITY"))
       return error(fmt::format("{} cannot be {}", of_instruction(), text()),
                    "a real is 0.0, or 1.175495E-38 to 3.402823E+38 or its negative");
-    if (std::ranges::find(diagnostics_, name.reason, &stl::Diagnostic::cause) != diagnostics_.end() && !name.reason.empty())
+    if (!name.reason.empty() &&
+        std::ranges::find(diagnostics_, name.reason, &stl::Diagnostic::cause) != diagnostics_.end())
       return {};  // its table has the message
     if (!name.reason.empty()) return error(name.reason);
     const bool constant = upper == "TRUE" || upper == "FALSE" || upper == "ON" || upper == "OFF";

@@ -422,8 +422,11 @@ class SymbolTableReader {
       add({cell_of(words[0]), cell_of(words[1])}, {}, line);
   }
 
-  bool is_known(std::string_view name) const {
-    return std::ranges::find(result_.source.symbols, name, &Symbol::name) != result_.source.symbols.end();
+  bool is_known(std::string_view name) const { return names_.contains(name); }
+
+  void keep(Symbol symbol) {
+    names_.insert(symbol.name);
+    result_.source.symbols.push_back(std::move(symbol));
   }
 
   /// Whether the columns fit the cells: some tables have more columns than headings, empty ones on the left.
@@ -438,8 +441,8 @@ class SymbolTableReader {
     if (address.text.empty()) return add_without_address(cells, line);
     auto value = value_of(address.text);
     if (auto meant = value ? std::nullopt : as_meant(address, line)) {
-      result_.source.symbols.push_back({name.text, *std::move(meant), position(name, line), comment_of(cells, columns)});
-      return;
+      forget_without_address(name.text);
+      return keep({name.text, *std::move(meant), position(name, line), comment_of(cells, columns)});
     }
     if (!value) {
       error(position(address, line),
@@ -456,12 +459,12 @@ class SymbolTableReader {
       return error(position(name, line), fmt::format("{} is an address or a constant, not a name", shortened(name.text)),
                    "give the symbol a name of its own: in the program, this would always be the address or the constant");
     forget_without_address(name.text);
-    result_.source.symbols.push_back({name.text, *std::move(value), position(name, line), comment_of(cells, columns)});
+    keep({name.text, *std::move(value), position(name, line), comment_of(cells, columns)});
   }
 
   /// A name that stood alone before was a title.
   void forget_without_address(std::string_view name) {
-    if (!without_address_.contains(name)) return;
+    if (without_address_.erase(std::string(name)) == 0) return;
     std::erase_if(result_.source.symbols, [name](const Symbol& symbol) { return symbol.name == name && !symbol.value; });
   }
 
@@ -499,7 +502,7 @@ class SymbolTableReader {
     const auto name = std::ranges::find_if(cells, [](const Cell& c) { return is_name(c.text); });
     if (name == cells.end() || is_known(name->text)) return;
     without_address_.insert(name->text);
-    result_.source.symbols.push_back({name->text, std::nullopt, position(*name, line), {}});
+    keep({name->text, std::nullopt, position(*name, line), {}});
   }
 
   Position position(const Cell& cell, std::string_view line) const {
@@ -516,7 +519,7 @@ class SymbolTableReader {
   ParseResult result_;
   std::uint32_t number_ = 0;
   std::optional<Columns> headed_;
-  std::set<std::string, std::less<>> without_address_{};
+  std::set<std::string, std::less<>> names_{}, without_address_{};
 };
 
 }  // namespace

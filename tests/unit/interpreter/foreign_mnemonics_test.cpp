@@ -45,6 +45,12 @@ TEST(ForeignMnemonics, HintsNameWhatDoesTheSame) {
   }
 }
 
+TEST(ForeignMnemonics, StringsHaveTwoComparisons) {
+  EXPECT_EQ(hint("LDS"), "write LDS= or LDS<>");
+  EXPECT_EQ(hint("LDSGE"), "write LDS= or LDS<>");
+  EXPECT_EQ(hint("LDWGE"), "write LDW>=");
+}
+
 TEST(ForeignMnemonics, TheImmediateContactsOfOtherControllersAreClosedOnes) {
   EXPECT_EQ(hint("ORI"), "write ON for a closed contact, OI to read an input at once");
   EXPECT_EQ(hint("ANDI"), "write AN for a closed contact, AI to read an input at once");

@@ -189,6 +189,24 @@ TEST(Headings, MayStandBeforeTheirFirstStatement) {
   EXPECT_EQ(mnemonics(result), (std::vector<std::string>{"LD", "CALL", "MEND", "SBR", "LD", "=", "RET"}));
 }
 
+/// Each of them is a message, and none takes more of the stack than the one before.
+TEST(Headings, ALineHasOneHeading) {
+  std::string line;
+  for (int i = 0; i < 20'000; ++i) line += "SBR_0:";
+  EXPECT_EQ(checked("LD SM0.1\nCALL SBR_0\n" + line + " LD I0.1\n= Q0.1\n").program, nullptr);
+}
+
+TEST(Headings, ATitleIsNoStatement) {
+  for (const std::string line : {"INT_0: Stop", "SBR_1: End", "SBR_0: Pump 1"})
+    EXPECT_FALSE(checked("LD SM0.1\n= Q0.0\n" + line + "\nLD I0.2\n= Q0.1\n").program) << line;
+}
+
+TEST(Headings, ManyLabelsTakeNoLongerEachThanOne) {
+  std::string text = "LD SM0.1\nCALL Init\n";
+  for (int i = 0; i < 20'000; ++i) text += "a:\n";
+  EXPECT_EQ(checked(text).program, nullptr);
+}
+
 TEST(Headings, ANameThatIsCalledIsNoLabel) {
   for (const std::string heading : {"Init:", "Init: LD I0.1", "SUBROUTINE Init", "Unterprogramm Init"})
     EXPECT_EQ(errors(checked("LD SM0.1\nCALL Init\n" + heading + "\nLD I0.2\n= Q0.1\n")),

@@ -136,6 +136,8 @@ TEST(PlainText, NothingThatLooksLikeAStatementIsCutOff) {
 TEST(PlainText, LineNumbersAreLeftOutIfAllLinesHaveThem) {
   EXPECT_EQ(program("1 LD I0.0\n2 = Q0.0\n"), program("LD I0.0\n= Q0.0\n"));
   EXPECT_EQ(program("001: LD I0.0\n002: // x\n010: = Q0.0\n"), program("LD I0.0\n// x\n= Q0.0\n"));
+  EXPECT_EQ(program("1: LD I0.0\n2: = Q0.0\n3: LD I0.1\n4: = Q0.1\n"), program("LD I0.0\n= Q0.0\nLD I0.1\n= Q0.1\n"))
+      << "which is no STEP 5";
   EXPECT_EQ(program("NETWORK 1\n1. LD I0.0\n2. = Q0.0\nNETWORK 2\n1. LD I0.1\n2. = Q0.1\n"),
             program("NETWORK 1\nLD I0.0\n= Q0.0\nNETWORK 2\nLD I0.1\n= Q0.1\n"));
   EXPECT_EQ(program("1.\u00A0NETWORK 1\n2.\u00A0LD SM0.1\n3.\t\u2009= Q0.0\n4.\u00A0MEND\n"),
