@@ -37,8 +37,9 @@ TEST(WorstInstant, IsNotThereIfWhatIsWrittenIsRightEitherWay) {
 
 TEST(WorstInstant, IsNotOneThatOnlyOtherMemoryTellsFromBothOrders) {
   EXPECT_EQ(races_of("LDW>= VW10, 5\nMOVW VW30, VW32\nMOVW 0, VW10\n", "INCW VW10\nINCW VW30\n"), "no races found\n");
-  EXPECT_EQ(races_of("LDW>= VW10, 5\nMOVW VW30, AC0\nMOVW AC0, VW32\nMOVW 0, VW10\n", "INCW VW10\nINCW VW30\n"),
-            "no races found\n");
+  const std::string text =
+      races_of("LDW>= VW10, 5\nMOVW VW30, AC0\nMOVW AC0, VW32\nMOVW 0, VW10\n", "INCW VW10\nINCW VW30\n");
+  EXPECT_NE(text.find("no run of it was found in which the word is lost"), std::string::npos) << text;
 }
 
 TEST(WorstInstant, ReadAndClearedIsWhatNobodyHasRead) {
