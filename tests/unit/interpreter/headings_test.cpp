@@ -166,6 +166,7 @@ TEST(Headings, ARoutineWhoseHeadingCouldNotBeReadIsNotMissing) {
 TEST(Headings, OfOtherLanguagesAreRead) {
   for (const std::string heading :
        {"\u4E2D\u65AD\u7A0B\u5E8FINT_0", "\u4E2D\u65AD\u7A0B\u5E8F INT_0",
+        "\u4E2D\u65B7\u7A0B\u5E8F INT_0", "\u4E2D\u65B7\u5B50\u7A0B\u5E8F INT_0",
         "\u4E2D\u65AD"
         "0",
         "INTERRUPTPROGRAMM INT_0", "Interrupt-Programm 0:", "RUTINA DE INTERRUPCI\u00D3N INT_0",
