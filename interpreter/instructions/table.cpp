@@ -66,20 +66,25 @@ constexpr Besides kStatusByte   {sm::kInterruptStatus, 1, Role::InOut}, kLocalMe
 constexpr Besides kCounters0To2{sm::byte(36), 30, Role::InOut},        kCounters3To5{sm::byte(136), 30, Role::InOut}, kCounts{image::kHC, 24, Role::InOut};
 constexpr Besides kPulses      {sm::byte(66), 20, Role::InOut},        kProfiles   {sm::byte(166), 20, Role::InOut}, kSegmentTables{image::kV, image::kL - image::kV, Role::In};
 
+/// The SM bytes of each port's receive message service. Its loop goes over the ports themselves: with their number as its end
+/// GCC 12 fails at it where it optimises at link time.
+constexpr AllBesides besides_of_reception() {
+  AllBesides all{kStatusByte};
+  std::size_t next = 1;
+  for (const auto& port : kPorts) {
+    all[next++] = {port.message, 1, Role::InOut};
+    all[next++] = {port.message + sm::message::kControl, 8, Role::In};
+  }
+  return all;
+}
+
 constexpr AllBesides kReadsInputs  {{{image::kInputs, image::kPointBytes, Role::In}}};
 constexpr AllBesides kWritesOutputs{{{image::kOutputs, image::kPointBytes, Role::InOut}}};
 constexpr AllBesides kChangesLevel {{kLocalMemory}};  // of another routine
 constexpr AllBesides kReturning    {{kLocalMemory, {image::kAC, 16, Role::Out}, {sm::kFlags, 1, Role::Out}}};
 constexpr AllBesides kEnabling     {{kStatusByte}};
 constexpr AllBesides kSending      {{kStatusByte}};
-constexpr AllBesides kReceiving    = [] {
-  AllBesides all{kStatusByte};
-  for (std::size_t port = 0; port < kPorts.size(); ++port) {
-    all[1 + port] = {kPorts[port].message, 1, Role::InOut};
-    all[1 + kPorts.size() + port] = {kPorts[port].message + sm::message::kControl, 8, Role::In};
-  }
-  return all;
-}();
+constexpr AllBesides kReceiving    = besides_of_reception();
 constexpr AllBesides kCounting     {{kCounters0To2, kCounters3To5, kCounts}};
 constexpr AllBesides kPulsing      {{kCounters0To2, kCounters3To5, kCounts, kPulses, kProfiles, kSegmentTables, {image::kOutputs, 1, Role::InOut}}};
 
