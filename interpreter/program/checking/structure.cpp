@@ -258,8 +258,10 @@ class StructureCheck {
   }
 
   void not_allowed_in_segment(std::uint32_t i) {
+    const bool jumps = statements_[i].instruction->structure == Structure::Jump;  // a jump has a rule of its own
     error(position(i),
-          fmt::format("{} is not allowed between LSCR and SCRE (compile rule 0096)", statements_[i].instruction->mnemonic),
+          fmt::format("{} is not allowed between LSCR and SCRE (compile rule {})", statements_[i].instruction->mnemonic,
+                      jumps ? "008B" : "0096"),
           fmt::format("the segment of line {} has not ended; close it with SCRE first", position(*segment_).line));
   }
 
