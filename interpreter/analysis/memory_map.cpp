@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "interpreter/analysis/effects/memory_names.hpp"
+#include "interpreter/analysis/flow/calls.hpp"
 #include "interpreter/base/bytes.hpp"
 
 namespace s7200 {
@@ -36,7 +37,8 @@ Bits bits_of(const InitialData& data) { return {(image::kV + data.offset) * 8u, 
 
 class MapBuilder {
  public:
-  MapBuilder(const Facts& facts, const CrossReference& reference) : facts_(facts), reference_(reference) {}
+  MapBuilder(const Facts& facts, const CrossReference& reference)
+      : facts_(facts), reference_(reference), calls_(calls_of(facts.program, facts.flow)) {}
 
   MemoryMap all() {
     for (const ReferenceEntry& entry : reference_.entries) {
@@ -56,7 +58,7 @@ class MapBuilder {
     const auto found = std::ranges::find_if(
         map_.areas, [&](const MemoryMap::AreaUse& each) { return each.area == wanted && each.routine == routine; });
     if (found != map_.areas.end()) return *found;
-    map_.areas.push_back({wanted, routine, bits_of_area(*facts_.program.model, wanted), {}, {}, {}, {}, {}});
+    map_.areas.push_back({wanted, routine, bits_of_area(*facts_.program.model, wanted), {}, {}, {}, {}, {}, {}});
     return map_.areas.back();
   }
 
@@ -82,6 +84,7 @@ class MapBuilder {
   /// Joins what touches, and finds what is left.
   void finish(MemoryMap::AreaUse& area) const {
     std::ranges::stable_sort(area.used, {}, [](const MemoryMap::Used& used) { return used.bits.first; });
+    area.idle = idle_of(area.used);
     std::vector<MemoryMap::Used> joined;
     std::uint64_t end = area.all.first;
     for (MemoryMap::Used& used : area.used) {
@@ -100,6 +103,34 @@ class MapBuilder {
     for (std::size_t i = 0; i < reference_.pointers.size(); ++i)
       if (std::ranges::any_of(reference_.pointers[i].targets, [&](const Bits& bits) { return bits.overlaps(area.all); }))
         area.pointers.push_back(i);
+  }
+
+  bool is_executed(const MemoryMap::Used& used) const {
+    const auto executed = [&](std::uint32_t routine) { return calls_.nodes[routine].executed(); };
+    return used.by_data || std::ranges::any_of(used.routines, executed);
+  }
+
+  /// What is left of the uses by routines that are never executed, without that of others. Both are by address.
+  std::vector<MemoryMap::Used> idle_of(const std::vector<MemoryMap::Used>& uses) const {
+    std::vector<MemoryMap::Used> idle;
+    const auto add = [&](const Bits& bits, const MemoryMap::Used& used) {
+      if (!idle.empty() && idle.back().bits.end() >= bits.first)
+        join(idle.back(), {bits, used.routines, false});
+      else
+        idle.push_back({bits, used.routines, false});
+    };
+    for (const MemoryMap::Used& used : uses) {
+      if (is_executed(used)) continue;
+      std::uint64_t from = used.bits.first;
+      for (const MemoryMap::Used& other : uses) {
+        if (!is_executed(other) || !other.bits.overlaps({from, used.bits.end() - from})) continue;
+        if (other.bits.first > from) add({from, other.bits.first - from}, used);
+        from = std::min(other.bits.end(), used.bits.end());
+        if (from == used.bits.end()) break;
+      }
+      if (from < used.bits.end()) add({from, used.bits.end() - from}, used);
+    }
+    return idle;
   }
 
   /// Splits what is free into what pointers may reach and what they do not.
@@ -181,6 +212,7 @@ class MapBuilder {
 
   const Facts& facts_;
   const CrossReference& reference_;
+  Calls calls_;
   MemoryMap map_{};
 };
 

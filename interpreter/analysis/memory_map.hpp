@@ -35,6 +35,7 @@ struct MemoryMap {
     std::optional<std::uint32_t> routine;  ///< of local memory
     Bits all;                              ///< what the CPU has
     std::vector<Used> used;                ///< by address
+    std::vector<Used> idle;                ///< that part of it which only routines name that are never executed
     std::vector<Perhaps> perhaps;          ///< by address
     std::vector<Bits> free, retentive;     ///< by address
     std::vector<std::size_t> pointers;     ///< that may reach it: in CrossReference::pointers

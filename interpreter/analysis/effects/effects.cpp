@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/model/ports.hpp"
 #include "interpreter/program/loading/unread.hpp"
 
 namespace s7200 {
@@ -39,7 +40,8 @@ class Collector {
     add_hidden();
     add_flags();
     for (const Besides& each : op_.instruction->besides)
-      if (each.bytes != 0) add({{bit_at(each.at), std::uint64_t{each.bytes} * 8}, each.role, Certainty::May});
+      if (each.bytes != 0 && !is_of_another_port(each))
+        add({{bit_at(each.at), std::uint64_t{each.bytes} * 8}, each.role, Certainty::May});
     if (op_.instruction->structure == Structure::Call) add_parameters(op_);
     if (returns_from_subroutine()) add_results();
     return std::move(all_);
@@ -64,6 +66,16 @@ class Collector {
  private:
   void add(const MemoryAccess& access) {
     if (access.bits.count != 0) all_.push_back(access);
+  }
+
+  /// RCV works on the message bytes of its own port; its row names those of all ports.
+  bool is_of_another_port(const Besides& each) const {
+    if (op_.instruction->effect != Effect::Receives || op_[1].unread()) return false;
+    for (std::size_t port = 0; port < kPorts.size(); ++port) {
+      const std::uint32_t first = kPorts[port].message;
+      if (each.at >= first && each.at <= first + sm::message::kMost) return port != op_[1].at;
+    }
+    return false;
   }
 
   /// NEXT works on the operands of its FOR.

@@ -35,6 +35,21 @@ TEST(MapView, TellsWhichRoutinesUseWhat) {
   EXPECT_EQ(m["retentive"], ordered_json::parse(R"(["MB14 to MB31"])"));
 }
 
+TEST(MapView, TellsWhatOnlyRoutinesUseThatAreNeverExecuted) {
+  constexpr std::string_view kProgram =
+      "LD SM0.0\nMOVB 1, VB2\nMEND\nSBR 1\nLD SM0.0\nMOVD 0, VD0\nMOVB 1, VB9\nCALL 2\nRET\nSBR 2\nLD SM0.0\nMOVB 1, VB10\nRET\n";
+  const ordered_json v = area(kProgram, "V");
+  EXPECT_EQ(v["used"][0]["memory"], "VB0 to VB3");
+  EXPECT_EQ(v["idle"], ordered_json::parse(R"([
+    {"memory": "VB0 to VB1", "routines": ["SBR_1"]},
+    {"memory": "VB3", "routines": ["SBR_1"]},
+    {"memory": "VB9 to VB10", "routines": ["SBR_1", "SBR_2"]}])"));
+  const std::string text = map_text(inspected(kProgram));
+  EXPECT_NE(text.find("  used only by routines that are never executed: VB0 to VB1 (SBR_1), VB3 (SBR_1), "), std::string::npos)
+      << text;
+  EXPECT_EQ(area("LD SM0.0\nMOVB 1, VB2\nMEND\n", "V")["idle"], ordered_json::array());
+}
+
 TEST(MapView, BlocksAreUsedAsFarAsTheyReach) {
   EXPECT_EQ(area("LD SM0.0\nFILL 0, VW10, 5\nMEND\n", "V")["used"][0]["memory"], "VB10 to VB19");
 }

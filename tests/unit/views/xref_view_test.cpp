@@ -56,6 +56,18 @@ TEST(XrefView, JsonHasTheSameUses) {
   EXPECT_EQ(json["constants"][1]["constant"], "100");
 }
 
+TEST(XrefView, AConstantIsShownAsItIsWrittenInEachPlace) {
+  const std::string text = xref_text(inspected("LD SM0.0\nMOVB 16#20, VB1\nMOVB 32, VB2\nMEND\n"));
+  EXPECT_NE(text.find("  16#20                       MAIN    1   test.stl:2"), std::string::npos) << text;
+  EXPECT_NE(text.find("  32                          MAIN    1   test.stl:3"), std::string::npos) << text;
+}
+
+TEST(XrefView, RcvTouchesTheMessageBytesOfItsOwnPort) {
+  const std::string text = xref_text(inspected("LD SM0.0\nRCV VB0, 1\nMEND\n", {}, *find_cpu("226")));
+  EXPECT_NE(text.find("SMB186"), std::string::npos) << text;
+  EXPECT_EQ(text.find("SMB86"), std::string::npos) << text;
+}
+
 TEST(XrefView, AProgramWithErrorsIsShownAsFarAsItIsRead) {
   const auto json = xref_json(inspected("LD I0.0\nMOVW VB1, VW10\n= Q0.0\nMEND\n"));
   ASSERT_EQ(json["entries"].size(), 3U);

@@ -66,6 +66,15 @@ std::string used_text(const Inspection& inspection, const MemoryMap::Used& used)
   return "  " + column(range_text(used.bits), 24) + wrapped_at(text, 26, 26) + "\n";
 }
 
+/// `VB135 to VB139 (INT_4)`
+std::string idle_text(const Inspection& inspection, const MemoryMap::AreaUse& area) {
+  if (area.idle.empty()) return {};
+  const std::string parts = stl::joined(area.idle, [&](const MemoryMap::Used& used) {
+    return fmt::format("{} ({})", range_text(used.bits), stl::joined(routine_names(inspection, used), map_name));
+  });
+  return "  " + wrapped_at("used only by routines that are never executed: " + parts, 4, 2) + "\n";
+}
+
 std::string list_text(std::string_view what, const std::vector<Bits>& all) {
   if (all.empty()) return {};
   return "  " + wrapped_at(fmt::format("{}: {}", what, stl::joined(all, range_text)), 4, 2) + "\n";
@@ -116,6 +125,7 @@ std::string head_text(const Inspection& inspection, const MemoryMap::AreaUse& ar
 std::string area_text(const Inspection& inspection, const CrossReference& reference, const MemoryMap::AreaUse& area) {
   std::string text = head_text(inspection, area);
   for (const MemoryMap::Used& used : area.used) text += used_text(inspection, used);
+  text += idle_text(inspection, area);
   if (area.area != Area::AC && area.area != Area::SM) text += perhaps_text(inspection, area) + list_text("free", area.free);
   text += list_text("retentive", area.retentive);
   const auto pointers = pointer_names(reference, area);
@@ -214,6 +224,9 @@ ordered_json area_json(const Inspection& inspection, const CrossReference& refer
   for (const MemoryMap::Used& used : area.used)
     json["used"].push_back(
         {{"memory", range_text(used.bits)}, {"routines", routine_names(inspection, used)}, {"data_block", used.by_data}});
+  json["idle"] = ordered_json::array();
+  for (const MemoryMap::Used& used : area.idle)
+    json["idle"].push_back({{"memory", range_text(used.bits)}, {"routines", routine_names(inspection, used)}});
   json["perhaps"] = ordered_json::array();
   for (const MemoryMap::Perhaps& perhaps : area.perhaps) {
     ordered_json through = ordered_json::array();

@@ -12,6 +12,7 @@
 #include "interpreter/base/text/counted.hpp"
 #include "interpreter/base/text/joined.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/stl/printer.hpp"
 #include "tools/views/state/memory_meaning.hpp"
 
 namespace s7200::tools {
@@ -169,7 +170,10 @@ std::string constants_text(const Inspection& inspection, const Wanted& wanted, c
   std::string text;
   for (const ConstantEntry& constant : reference.constants)
     for (const ConstantEntry::Place& place : constant.places)
-      if (wanted.op(place.op)) text += row_text(inspection, "  " + column(stl::printable(constant.text), 28), place.op);
+      if (wanted.op(place.op)) {  // as it is written there: 32, 16#20 or ' '
+        const std::string written = stl::to_text(inspection.program->statement(place.op).operands[place.operand]);
+        text += row_text(inspection, "  " + column(stl::printable(written), 28), place.op);
+      }
   return text.empty() ? text : "\nConstants\n" + text;
 }
 
