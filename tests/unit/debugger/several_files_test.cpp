@@ -63,5 +63,15 @@ TEST(SeveralFiles, AMessageOfAStopHasTheNumberInTheFile) {
   EXPECT_TRUE(has(session("break sub.awl:6 log 'at {line}'; continue 1ms"), "at pumps/sub.awl:6\n")) << session.out.str();
 }
 
+TEST(SeveralFiles, WhoNamesTheDataBlockOfWhatNothingHasWritten) {
+  std::vector<SourceText> files;
+  files.push_back(read_source("LD SM0.0\nMOVW VW300, VW0\nMEND\n", "names.awl").value());
+  files.push_back(read_source("VB290 'JOHANNISBEERE'\nVW312 12\n", "data.txt").value());
+  AtPrompt session(check(join_files(std::move(files)).parsed, cpu224(), default_times(cpu224())).program);
+  session("continue 10ms");
+  EXPECT_TRUE(has(session("who VW300"), "it is 16#4552 (17746); the data block sets VB290 to VB302")) << session.out.str();
+  EXPECT_FALSE(has(session("who VW304"), "data block")) << session.out.str();
+}
+
 }  // namespace
 }  // namespace s7200::tools::several_files_test

@@ -24,6 +24,16 @@ std::string by_text(const LastWrite& write, const History& history, const Progra
   return "  by " + changer_text(history, write.action, write.planned);
 }
 
+/// `; the data block sets VB290 to VB302`, where that is part of a range; else empty.
+std::string data_text(const Program& program, const MemoryRange& range) {
+  for (const InitialData& data : program.data) {
+    const std::uint32_t first = image::kV + data.offset, end = first + static_cast<std::uint32_t>(data.bytes.size());
+    if (range.at < end && first < range.at + range.bytes())
+      return fmt::format("; the data block sets VB{} to VB{}", data.offset, data.offset + data.bytes.size() - 1);
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string asked_by_text(const History& history, const Asker& asker, const std::string& plc) {
@@ -56,8 +66,8 @@ WriterSearch find_writer(History& history, std::size_t station, const Listing& l
   if (!search.write) {
     const auto now = range.bytes_in(history.station(station).cpu().state().image);
     return {.writer = {},
-            .none = fmt::format("nothing has written {} {}; it is {}", name, since_oldest_text(history),
-                                value_text(program, range, now))};
+            .none = fmt::format("nothing has written {} {}; it is {}{}", name, since_oldest_text(history),
+                                value_text(program, range, now), data_text(program, range))};
   }
   const LastWrite& write = *search.write;
   return {.writer =
