@@ -37,6 +37,7 @@ class System:
     lacks: callable = lambda: ""  # why nothing here can run its programs
     engine: str = ""  # the target that the engine of the page is; empty to leave it out
     start_engine: callable = None  # the command that runs it, if it is another than that of programs
+    flags: str = "-O1 -DNDEBUG"  # of the compiler, for a quick build; empty: those of the preset
 
 
 def node(program):
@@ -58,8 +59,10 @@ def module(engine):
 SYSTEMS = {
     "wasm": System("wasm", {"clang++-19": FOR_WASM, "node": FOR_WASM}, node, engine="engine", start_engine=module),
     "wasm-tail-calls": System("wasm-tail-calls", {"clang++-19": FOR_WASM, "node": FOR_WASM}, node, lacks_tail_calls, "engine", module),
-    "mingw": System("mingw", FOR_MINGW, lambda program: [WINE, program]),
-    "mingw-engine": System("mingw", FOR_MINGW, lambda program: [WINE, program], engine="engine_lines"),
+    "mingw": System("mingw", FOR_MINGW, lambda program: [WINE, program], flags="-Og -DNDEBUG"),
+    "mingw-engine": System("mingw", FOR_MINGW, lambda program: [WINE, program], engine="engine_lines", flags="-Og -DNDEBUG"),
+    # What users run is optimised at link time, which no other build of the tests is.
+    "release": System("release", {}, lambda program: [program], flags=""),
 }
 
 
@@ -86,8 +89,8 @@ def build(system, source, build_folder):
     """Configures and builds a preset in a folder of the native build, so that the next run finds it there. Returns the programs."""
     preset = system.preset
     folder = build_folder / "platforms" / preset
-    quickly = f"-DCMAKE_CXX_FLAGS_RELEASE={'-Og' if preset == 'mingw' else '-O1'} -DNDEBUG"
-    for command in (["cmake", "--preset", preset, "-B", folder, quickly],
+    quickly = [f"-DCMAKE_CXX_FLAGS_RELEASE={system.flags}"] if system.flags else []
+    for command in (["cmake", "--preset", preset, "-B", folder, *quickly],
                     ["cmake", "--build", folder, "--target", "conversation", *filter(None, [system.engine])]):
         result = subprocess.run(command, cwd=source, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
         if result.returncode != 0:
