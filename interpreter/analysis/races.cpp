@@ -5,7 +5,6 @@
 #include <optional>
 #include <set>
 #include <span>
-#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -13,7 +12,7 @@
 #include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/analysis/effects/value_boxes.hpp"
 #include "interpreter/analysis/flow/first_scan.hpp"
-#include "interpreter/base/bytes.hpp"
+#include "interpreter/analysis/flow/kept_away.hpp"
 #include "interpreter/program/loading/unread.hpp"
 
 namespace s7200 {
@@ -21,9 +20,7 @@ namespace {
 
 constexpr std::uint64_t kBitsOfByte = 8, kBitsOfWord = 16, kBitsOfDouble = 32;
 constexpr std::size_t kFarthest = 300;                          ///< steps between a read and a write that depends on it
-constexpr std::size_t kMostSteps = 60'000;                      ///< the most steps into which a program is unfolded
-constexpr std::size_t kMostDepth = 8;                           ///< the deepest nesting of calls that is followed
-constexpr std::uint64_t kMostBits = kBitsOfByte * 255;          ///< the longest block of an instruction, in bits
+constexpr std::uint64_t kMostBits = kBitsOfByte * 255;          ///< of a block of which memory says how long it is, in bits
 constexpr std::uint64_t kBitsOfFrame = std::uint64_t{1} << 40;  ///< more than the image has
 
 bool is_shared(const Bits& bits) {
@@ -86,7 +83,7 @@ class Accesses {
       return;  // messages belong to the port
     }
     added.somewhere |= rule.text && access.certainty == Certainty::May;
-    if (added.somewhere || added.bits.count <= kMostBits) all_[op].push_back(added);
+    if (added.somewhere || added.certain || added.bits.count <= kMostBits) all_[op].push_back(added);
   }
 
   /// ATT, FIFO and LIFO count what is in their table, in its second word.
@@ -104,32 +101,50 @@ class Accesses {
 struct PlacedOp {
   std::uint32_t op = 0;
   std::uint32_t call = 0;  ///< which execution of a routine it belongs to; 0: that which begins
-  std::vector<Access> accesses{};
+  std::span<const Access> accesses{};
+};
+
+/// An execution of a routine, and the CALL of another one that begins it. The first has none.
+struct PlacedCall {
+  std::uint32_t caller = 0, op = 0;
 };
 
 /// The steps of a routine and of what it calls.
+struct Unfolded {
+  std::vector<PlacedOp> steps;
+  std::vector<PlacedCall> calls;
+  std::vector<NotFollowed> not_followed;
+  /// Accesses that are not everywhere the same, and those of parameters: by op, depth, and number of the parameter.
+  std::map<std::tuple<std::uint32_t, std::size_t, std::size_t>, std::vector<Access>> of_depth;
+};
+
 class OpsInOrder {
  public:
-  OpsInOrder(const Facts& facts, const Calls& calls, const Accesses& accesses, const std::vector<bool>& left_out)
-      : facts_(facts), calls_(calls), accesses_(accesses), left_out_(left_out) {}
+  /// `most_depth`: how many calls the CPU nests there.
+  OpsInOrder(const Facts& facts, const Accesses& accesses, const std::vector<bool>& left_out, std::size_t most_depth)
+      : facts_(facts), accesses_(accesses), left_out_(left_out), most_depth_(most_depth) {
+    for (const CallSite& site : facts.flow.calls) called_.emplace(site.op, site.routine);
+  }
 
-  std::vector<PlacedOp> of(std::uint32_t routine) {
-    steps_.clear();
-    count_ = 0;
-    expand(routine, 0);
-    return std::move(steps_);
+  Unfolded of(std::uint32_t routine) {
+    from_ = routine;
+    expand(routine, 0, {});
+    return std::move(all_);
   }
 
  private:
-  void expand(std::uint32_t routine, std::size_t depth) {
-    const std::uint32_t call = count_++;
+  static constexpr std::size_t kOwn = 0, kHandedOver = 1, kHandedBack = 2;  // and further in steps of 2
+
+  void expand(std::uint32_t routine, std::size_t depth, const PlacedCall& by) {
+    const auto call = static_cast<std::uint32_t>(all_.calls.size());
+    all_.calls.push_back(by);
     const Routine& what = facts_.flow.routines[routine];
     for (std::uint32_t op = what.first; op < what.end; ++op) {
       const Op& now = facts_.program.ops[op];
       if (now.instruction->structure == Structure::Call)
         expand_call(op, call, depth);
       else
-        add(op, call, depth, returns(now) ? std::vector<Access>{} : accesses_.of(op));
+        all_.steps.push_back({op, call, returns(now) ? std::span<const Access>() : accesses_at(op, depth)});
     }
   }
 
@@ -139,28 +154,40 @@ class OpsInOrder {
 
   void expand_call(std::uint32_t op, std::uint32_t call, std::size_t depth) {
     const Op& now = facts_.program.ops[op];
-    add(op, call, depth, {});
-    const auto site = std::ranges::find(facts_.flow.calls, op, &CallSite::op);
-    if (site == facts_.flow.calls.end() || left_out_[op] || depth + 1 > kMostDepth || steps_.size() > kMostSteps) return;
-    if (!calls_.nodes[site->routine].depth) return;  // it calls itself
+    all_.steps.push_back({op, call});
+    const auto site = called_.find(op);
+    if (site == called_.end() || left_out_[op]) return;
+    const std::uint32_t routine = site->second;
+    if (depth == most_depth_) return leave(op, routine, NotFollowed::Reason::DeeperThanTheCpuCalls);
+    if (all_.steps.size() > kMostStepsOfRaces) return leave(op, routine, NotFollowed::Reason::TooManySteps);
     const auto parameters = std::span(facts_.program.parameters).subspan(now[1].at, now[2].at);
-    for (const Parameter& parameter : parameters)
-      if (parameter.role != Role::Out)
-        move(op, call, actual(op, parameter, Role::In, depth), {local(parameter, Role::Out, depth)});
-    expand(site->routine, depth + 1);
-    const std::uint32_t ret = facts_.flow.routines[site->routine].end - 1;
-    for (const Parameter& parameter : parameters)
-      if (parameter.role != Role::In)
-        move(ret, call, {local(parameter, Role::In, depth)}, actual(op, parameter, Role::Out, depth));
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      if (parameters[i].role != Role::Out)
+        move(op, {op, depth, kHandedOver + 2 * i}, call,
+             [&] { return joined(actual(op, parameters[i], Role::In, depth), {local(parameters[i], Role::Out, depth)}); });
+    expand(routine, depth + 1, {call, op});
+    const std::uint32_t ret = facts_.flow.routines[routine].end - 1;
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      if (parameters[i].role != Role::In)
+        move(ret, {op, depth, kHandedBack + 2 * i}, call,
+             [&] { return joined({local(parameters[i], Role::In, depth)}, actual(op, parameters[i], Role::Out, depth)); });
   }
 
-  void add(std::uint32_t op, std::uint32_t call, std::size_t depth, std::vector<Access> accesses) {
-    for (Access& access : accesses) access.bits = at_depth(access.bits, depth);
-    steps_.push_back({op, call, std::move(accesses)});
+  void leave(std::uint32_t op, std::uint32_t routine, NotFollowed::Reason reason) {
+    const NotFollowed left{reason, op, routine, from_};
+    if (std::ranges::find(all_.not_followed, left) == all_.not_followed.end()) all_.not_followed.push_back(left);
   }
-  void move(std::uint32_t op, std::uint32_t call, std::vector<Access> from, const std::vector<Access>& to) {
+
+  template <class Accesses>
+  void move(std::uint32_t op, const std::tuple<std::uint32_t, std::size_t, std::size_t>& key, std::uint32_t call,
+            const Accesses& accesses) {
+    const auto [known, is_new] = all_.of_depth.try_emplace(key);
+    if (is_new) known->second = accesses();
+    all_.steps.push_back({op, call, known->second});
+  }
+  static std::vector<Access> joined(std::vector<Access> from, const std::vector<Access>& to) {
     from.insert(from.end(), to.begin(), to.end());
-    steps_.push_back({op, call, std::move(from)});
+    return from;
   }
 
   static Bits bits_of(const Operand& operand, Width width) {
@@ -187,39 +214,74 @@ class OpsInOrder {
   }
 
   /// Each routine has local memory of its own.
-  static Bits at_depth(const Bits& bits, std::size_t depth) {
+  static bool is_local(const Bits& bits) {
     const Bits local{image::kL * kBitsOfByte, (image::kConstants - image::kL) * kBitsOfByte};
-    return local.overlaps(bits) && local.contains(bits) ? Bits{bits.first + depth * kBitsOfFrame, bits.count} : bits;
+    return local.overlaps(bits) && local.contains(bits);
+  }
+  static Bits at_depth(const Bits& bits, std::size_t depth) {
+    return is_local(bits) ? Bits{bits.first + depth * kBitsOfFrame, bits.count} : bits;
+  }
+  std::span<const Access> accesses_at(std::uint32_t op, std::size_t depth) {
+    const std::vector<Access>& own = accesses_.of(op);
+    if (depth == 0 || std::ranges::none_of(own, is_local, &Access::bits)) return own;
+    const auto [known, is_new] = all_.of_depth.try_emplace({op, depth, kOwn}, own);
+    for (Access& access : known->second)
+      if (is_new) access.bits = at_depth(access.bits, depth);
+    return known->second;
   }
 
   const Facts& facts_;
-  const Calls& calls_;
   const Accesses& accesses_;
   const std::vector<bool>& left_out_;
-  std::vector<PlacedOp> steps_{};
-  std::uint32_t count_ = 0;
+  std::size_t most_depth_;
+  std::map<std::uint32_t, std::uint32_t> called_{};  // by CALL: its routine
+  std::uint32_t from_ = 0;
+  Unfolded all_{};
 };
 
 /// Tells during which steps DISI or DTCH surely keeps interrupts away.
 class Protection {
  public:
-  Protection(const Facts& facts, const Calls& calls, const std::vector<PlacedOp>& steps)
-      : facts_(facts), calls_(calls), steps_(steps) {}
+  Protection(const Facts& facts, const Calls& calls, const std::vector<bool>& left_out, const Unfolded& main)
+      : facts_(facts), calls_(calls), left_out_(left_out), main_(main) {}
 
   /// Whether no interrupt of an event comes between two steps.
-  bool covers(std::size_t first, std::size_t last, std::uint8_t event) const {
+  bool covers(std::size_t first, std::size_t last, std::uint8_t event) {
+    return is_closed(of_all(), first, last) || (!is_attached_by_others(event) && is_closed(of_event(event), first, last));
+  }
+
+ private:
+  /// With the executions of the steps, by their number, and the steps that let interrupts come.
+  struct Barrier {
+    KeptAway kept_away;
+    std::vector<Execution> executions;
+    std::vector<std::size_t> openings;
+  };
+
+  Barrier& of_all() {
     const auto enables = [](const Op& op) { return op.instruction->effect == Effect::EnablesInterrupts; };
     const auto disables = [](const Op& op) { return op.instruction->mnemonic == "DISI"; };
+    if (!of_all_) of_all_.emplace(barrier({enables, disables}));
+    return *of_all_;
+  }
+
+  Barrier& of_event(std::uint8_t event) {
     const auto attaches = [event](const Op& op) {
       return op.instruction->structure == Structure::Attach && (op[1].unread() || op[1].at == event);
     };
     const auto detaches = [event](const Op& op) { return op.instruction->mnemonic == "DTCH" && op[0].at == event; };
-    return is_closed(first, last, enables, disables) ||
-           (!is_attached_by_others(event) && is_closed(first, last, attaches, detaches));
+    const auto known = of_event_.find(event);
+    return known != of_event_.end() ? known->second : of_event_.emplace(event, barrier({attaches, detaches})).first->second;
   }
 
- private:
-  const Op& op(std::size_t step) const { return facts_.program.ops[steps_[step].op]; }
+  Barrier barrier(const InterruptGate& gate) const {
+    Barrier made{KeptAway(facts_.program, facts_.flow, left_out_, gate), {Execution{}}, {}};
+    for (std::size_t i = 1; i < main_.calls.size(); ++i)
+      made.executions.push_back(made.kept_away.called(made.executions[main_.calls[i].caller], main_.calls[i].op));
+    for (std::size_t step = 0; step < main_.steps.size(); ++step)
+      if (gate.opens(facts_.program.ops[main_.steps[step].op])) made.openings.push_back(step);
+    return made;
+  }
 
   /// Whether an interrupt of another event, which comes after a DTCH too, attaches this one again.
   bool is_attached_by_others(std::uint8_t event) const {
@@ -237,58 +299,23 @@ class Protection {
                                [&](const CallSite& site) { return is_started_by_others(site.routine, event, seen); });
   }
 
-  template <class Opens, class Closes>
-  bool is_closed(std::size_t first, std::size_t last, const Opens& opens, const Closes& closes) const {
-    for (std::size_t i = first; i < last; ++i)
-      if (opens(op(i))) return false;
-    for (std::size_t i = first; i-- > 0;) {
-      if (opens(op(i))) return false;
-      if (closes(op(i))) return is_executed_with(i, first);
-    }
-    return false;
-  }
-
-  /// Whether a step has power flow whenever a later one has.
-  bool is_executed_with(std::size_t closing, std::size_t later) const {
-    if (facts_.flow.nodes[steps_[closing].op].powered) return !leads_past(closing, later);
-    for (std::size_t i = closing + 1; i < later; ++i) {
-      if (!is_beside(i, closing)) continue;
-      const Op& between = op(i);
-      const std::string_view mnemonic = between.instruction->mnemonic;
-      const bool only_takes_power = mnemonic.starts_with('A') && mnemonic != "ALD";
-      if (between.is_contact && !only_takes_power) return false;
-      const Structure structure = between.instruction->structure;
-      if (structure != Structure::None && structure != Structure::Call && structure != Structure::Attach) return false;
-    }
-    return true;
-  }
-
-  /// Whether some way leads past the closing step: a label, to which a jump may come, a way out of its routine, or a CALL of
-  /// that which is left out.
-  bool leads_past(std::size_t closing, std::size_t later) const {
-    bool left = false;
-    for (std::size_t i = closing + 1; i <= later; ++i) {
-      if (!is_beside(i, closing)) continue;
-      const Structure structure = op(i).instruction->structure;
-      if (structure == Structure::Label) return true;
-      left |= structure == Structure::SubroutineEnd;
-    }
-    if (!left) return false;
-    for (std::size_t i = closing; i-- > 0;)
-      if (is_beside(i, closing) && op(i).instruction->effect == Effect::ConditionalEnd) return true;
-    const auto head = std::ranges::find(steps_, steps_[closing].call, &PlacedOp::call) - steps_.begin();
-    return head != 0 && !is_executed_with(static_cast<std::size_t>(head) - 1, later);
-  }
-
-  /// Whether a step is of the same execution of the same routine. What hands parameters back is not: its op is the RET.
-  bool is_beside(std::size_t step, std::size_t closing) const {
-    const auto& nodes = facts_.flow.nodes;
-    return steps_[step].call == steps_[closing].call && nodes[steps_[step].op].routine == nodes[steps_[closing].op].routine;
+  bool is_closed(Barrier& barrier, std::size_t first, std::size_t last) const {
+    const auto opening = std::ranges::lower_bound(barrier.openings, first);
+    if (opening != barrier.openings.end() && *opening < last) return false;
+    const PlacedOp& step = main_.steps[first];
+    const Execution& execution = barrier.executions[step.call];
+    if (facts_.flow.nodes[step.op].routine == execution.routine) return barrier.kept_away.in_front(execution, step.op);
+    std::size_t inner = first;  // it hands a parameter back: its op is the RET
+    while (main_.steps[inner].call == step.call) --inner;
+    return barrier.kept_away.behind(barrier.executions[main_.steps[inner].call]);
   }
 
   const Facts& facts_;
   const Calls& calls_;
-  const std::vector<PlacedOp>& steps_;
+  const std::vector<bool>& left_out_;
+  const Unfolded& main_;
+  std::optional<Barrier> of_all_{};
+  std::map<std::uint8_t, Barrier> of_event_{};
 };
 
 class RaceFinder {
@@ -299,15 +326,16 @@ class RaceFinder {
         waiter_(waiter),
         accesses_(facts),
         first_scan_(ops_of_first_scan(facts.program)),
-        protection_(facts, calls, steps_) {}
+        protection_(facts, calls, first_scan_, main_) {}
 
-  std::vector<Race> all() {
+  Races all() {
     if (calls_.enabling.empty()) return {};
-    steps_ = OpsInOrder(facts_, calls_, accesses_, first_scan_).of(0);
+    main_ = OpsInOrder(facts_, accesses_, first_scan_, facts_.program.model->call_depth).of(0);
+    not_followed_ = main_.not_followed;
     for (std::uint32_t i = 0; i < calls_.nodes.size(); ++i)
       if (!calls_.nodes[i].events.empty()) with_interrupt(i);
     std::ranges::sort(races_, {}, [](const Race& race) { return std::tuple(race.first, race.last, race.interrupt); });
-    return std::move(races_);
+    return {std::move(races_), std::move(not_followed_)};
   }
 
  private:
@@ -315,6 +343,7 @@ class RaceFinder {
   struct Foreign {
     std::uint32_t op = 0;
     Access access;
+    std::size_t run = 0;  ///< those with the same number are executed together
   };
 
   void with_interrupt(std::uint32_t routine) {
@@ -322,17 +351,23 @@ class RaceFinder {
     foreign_.clear();
     std::set<std::tuple<std::uint32_t, std::uint64_t, std::uint64_t, Role>> known;  // a routine may be called often
     const std::vector<bool> nothing(facts_.program.ops.size());
-    for (const PlacedOp& step : OpsInOrder(facts_, calls_, accesses_, nothing).of(routine))
+    const Unfolded all = OpsInOrder(facts_, accesses_, nothing, facts_.program.model->interrupt_call_depth).of(routine);
+    not_followed_.insert(not_followed_.end(), all.not_followed.begin(), all.not_followed.end());
+    std::size_t run = 0;
+    for (const PlacedOp& step : all.steps) {
+      run += begins_run(step.op);
       for (const Access& access : step.accesses)
         if (access.bits.count != 0 && !access.anywhere && is_shared(access.bits) &&
             known.emplace(step.op, access.bits.first, access.bits.count, access.role).second)
-          foreign_.push_back({step.op, access});
+          foreign_.push_back({step.op, access, run});
+    }
     if (foreign_.empty()) return;
-    for (std::size_t step = 0; step < steps_.size() && !waiter_.asks_to_end(); ++step) {
+    for (std::size_t step = 0; step < main_.steps.size() && !waiter_.asks_to_end(); ++step) {
       if (is_unread(op(step))) continue;
-      for (const Access& access : steps_[step].accesses) {
+      for (const Access& access : main_.steps[step].accesses) {
         if (access.bits.count == 0 || !is_shared(access.bits) || !writer_of(access.bits)) continue;
         if (access.role == Role::In) follow(step, access);
+        if (access.role == Role::In && !op(step).is_contact) find_mixed(step, access);
         if (access.role == Role::Out && !access.somewhere) keep(step, access);
       }
     }
@@ -340,28 +375,38 @@ class RaceFinder {
     find_torn(Race::Kind::TornWrite);
   }
 
-  const Op& op(std::size_t step) const { return facts_.program.ops[steps_[step].op]; }
+  const Op& op(std::size_t step) const { return facts_.program.ops[main_.steps[step].op]; }
 
   /// Whether a box or a coil has power flow in the first scan only.
-  bool is_of_first_scan(std::size_t step) const { return !op(step).is_contact && first_scan_[steps_[step].op]; }
+  bool is_of_first_scan(std::size_t step) const { return !op(step).is_contact && first_scan_[main_.steps[step].op]; }
 
   struct Pair {
     std::size_t first = 0, last = 0;
   };
 
+  /// Whether an op of the interrupt may be executed without that in front of it, or that without it.
+  bool begins_run(std::uint32_t number) const {
+    const Op& now = facts_.program.ops[number];
+    const auto& nodes = facts_.flow.nodes;
+    const bool is_always_on = now.is_contact && nodes[number].powered && nodes[number + 1].powered;
+    return (now.is_contact && !is_always_on) || is_unread(now) || now.instruction->structure != Structure::None ||
+           now.instruction->effect == Effect::ConditionalEnd;
+  }
+
   void add(Race::Kind kind, const Bits& bits, const Pair& steps, const Foreign& foreign, bool suspected) {
-    const std::uint32_t first = steps_[steps.first].op, last = steps_[steps.last].op;
+    const std::uint32_t first = main_.steps[steps.first].op, last = main_.steps[steps.last].op;
     if (is_of_first_scan(steps.first) || is_of_first_scan(steps.last)) return;
+    const auto known = std::ranges::find_if(races_, [&](const Race& race) {
+      return race.routine == interrupt_ && race.last == last && race.kind == kind && race.bits == as_named(bits);
+    });
+    if (known != races_.end() && (suspected || !known->suspected)) return;
     const auto& events = calls_.nodes[interrupt_].events;
     const auto event =
         std::ranges::find_if(events, [&](std::uint8_t each) { return !protection_.covers(steps.first, steps.last, each); });
     if (event == events.end()) return;
-    const auto known = std::ranges::find_if(races_, [&](const Race& race) {
-      return race.routine == interrupt_ && race.last == last && race.kind == kind && race.bits == as_named(bits);
-    });
     if (known == races_.end())
       races_.push_back({kind, as_named(bits), first, last, foreign.op, interrupt_, *event, suspected});
-    else if (known->suspected && !suspected)
+    else
       *known = {kind, as_named(bits), first, last, foreign.op, interrupt_, *event, suspected};
   }
 
@@ -399,7 +444,7 @@ class RaceFinder {
     if (!decides) note_writes(reader, dependent);
     bool kept = std::ranges::any_of(dependent, [](const Bits& bits) { return area_of(as_named(bits)) != Area::AC; });
     int pushed = 0;  // LPS without their LPP
-    const std::size_t end = std::min(steps_.size(), reader + kFarthest);
+    const std::size_t end = std::min(main_.steps.size(), reader + kFarthest);
     for (std::size_t step = reader + 1; step < end; ++step) {
       const Op& now = op(step);
       if (is_unread(now)) return;
@@ -426,21 +471,21 @@ class RaceFinder {
   }
 
   bool reads_any(std::size_t step, const std::vector<Bits>& dependent) const {
-    return std::ranges::any_of(steps_[step].accesses, [&](const Access& access) {
+    return std::ranges::any_of(main_.steps[step].accesses, [&](const Access& access) {
       return access.reads() && access.bits.count != 0 && overlaps_any(dependent, access.bits);
     });
   }
 
   /// Whether a box reads and writes it again in one go, or reads it for what follows.
   bool rereads(std::size_t step, const Bits& shared) const {
-    return std::ranges::any_of(steps_[step].accesses, [&](const Access& access) {
+    return std::ranges::any_of(main_.steps[step].accesses, [&](const Access& access) {
       return access.role == Role::In && access.of_operand && access.bits == shared;
     });
   }
 
   /// What a step writes of memory that was read. Of bits that are set or reset nothing depends on their old value.
   const Access* write_back(std::size_t step, const Access& read) const {
-    for (const Access& access : steps_[step].accesses) {
+    for (const Access& access : main_.steps[step].accesses) {
       const Bits both = overlap_of(access.bits, read.bits);
       if (access.role != Role::Out || both.count == 0) continue;
       if (both.count < kBitsOfByte && (read.bits.count != 1 || op(step).instruction->effect != Effect::Coil)) continue;
@@ -466,7 +511,7 @@ class RaceFinder {
   /// always.
   bool belong_together(std::size_t reader, std::size_t writer) const {
     const auto& nodes = facts_.flow.nodes;
-    const std::uint32_t first = steps_[reader].op, last = steps_[writer].op;
+    const std::uint32_t first = main_.steps[reader].op, last = main_.steps[writer].op;
     if (nodes[last].powered || (nodes[first].network == nodes[last].network)) return true;
     return condition_of(reader) == condition_of(writer);
   }
@@ -485,7 +530,7 @@ class RaceFinder {
   }
 
   void note_writes(std::size_t step, std::vector<Bits>& dependent) const {
-    for (const Access& access : steps_[step].accesses)
+    for (const Access& access : main_.steps[step].accesses)
       if (access.writes() && access.of_operand && access.bits.count != 0 && !overlaps_whole(dependent, access.bits))
         dependent.push_back(access.bits);
   }
@@ -493,10 +538,20 @@ class RaceFinder {
     return std::ranges::any_of(all, [&](const Bits& each) { return each.contains(bits); });
   }
 
+  /// MOVW writes one half of an accumulator: the other one stays.
   void forget_overwritten(std::size_t step, std::vector<Bits>& dependent) const {
-    for (const Access& access : steps_[step].accesses)
-      if (access.role == Role::Out && access.certain)
-        std::erase_if(dependent, [&](const Bits& bits) { return access.bits.contains(bits); });
+    for (const Access& access : main_.steps[step].accesses) {
+      if (access.role != Role::Out || !access.certain || access.bits.count == 0) continue;
+      std::vector<Bits> left;
+      for (const Bits& bits : dependent) {
+        const Bits both = overlap_of(bits, access.bits);
+        if (both.count == 0) left.push_back(bits);
+        if (both.count == 0) continue;
+        if (both.first > bits.first) left.push_back({bits.first, both.first - bits.first});
+        if (both.end() < bits.end()) left.push_back({both.end(), bits.end() - both.end()});
+      }
+      dependent = std::move(left);
+    }
   }
 
   // --- what is read after a write ---
@@ -510,11 +565,11 @@ class RaceFinder {
     });
     if (foreign == foreign_.end()) return;
     const bool constant = writes_constant(writer);
-    const std::size_t end = std::min(steps_.size(), writer + kFarthest);
+    const std::size_t end = std::min(main_.steps.size(), writer + kFarthest);
     std::optional<std::size_t> changed;
     for (std::size_t step = writer + 1; step < end; ++step) {
       if (is_unread(op(step))) return;
-      for (const Access& access : steps_[step].accesses) {
+      for (const Access& access : main_.steps[step].accesses) {
         if (access.bits.count == 0 || !access.bits.overlaps(write.bits)) continue;
         if (access.role == Role::Out && access.certain) return;
         if (access.role == Role::InOut) changed = changed.value_or(step);
@@ -528,7 +583,7 @@ class RaceFinder {
   }
 
   bool leads(std::size_t step, const Bits& pointer) const {
-    return std::ranges::any_of(steps_[step].accesses, [&](const Access& access) {
+    return std::ranges::any_of(main_.steps[step].accesses, [&](const Access& access) {
       return access.pointer != 0 && access.pointer * kBitsOfByte == pointer.first;
     });
   }
@@ -542,12 +597,83 @@ class RaceFinder {
   /// Whether the main program reads some memory in front of all that it writes there.
   bool is_read_first(const Bits& bits) {
     const auto [answer, is_new] = read_first_.try_emplace({bits.first, bits.count}, false);
-    for (std::size_t step = 0; is_new && step < steps_.size(); ++step)
-      for (const Access& access : steps_[step].accesses) {
+    for (std::size_t step = 0; is_new && step < main_.steps.size(); ++step)
+      for (const Access& access : main_.steps[step].accesses) {
         if (!access.bits.overlaps(bits) || access.somewhere || is_of_first_scan(step)) continue;
         return answer->second = access.reads();
       }
     return answer->second;
+  }
+
+  // --- words that belong together ---
+
+  /// A second read of the main program, and what depends on it.
+  struct SecondRead {
+    std::size_t step = 0;
+    Bits bits;
+    const Foreign* writer = nullptr;
+    std::vector<Bits> dependent;
+  };
+
+  /// Two words that the interrupt always writes together, from which the main program works out one value: between its two
+  /// reads one of them becomes new.
+  void find_mixed(std::size_t reader, const Access& read) {
+    if (!is_value(read)) return;
+    for (const Foreign& each : foreign_)
+      if (writes_whole(each, read.bits)) return follow_mixed(reader, read, each);
+  }
+
+  static bool is_value(const Access& access) {
+    return access.of_operand && access.certain && !access.somewhere && access.bits.count >= kBitsOfByte &&
+           access.bits.count <= kBitsOfDouble;
+  }
+  static bool writes_whole(const Foreign& foreign, const Bits& bits) {
+    return foreign.access.writes() && foreign.access.certain && !foreign.access.somewhere &&
+           foreign.access.bits.contains(bits);
+  }
+
+  void follow_mixed(std::size_t reader, const Access& read, const Foreign& writer) {
+    std::vector<Bits> dependent;
+    std::vector<SecondRead> second;
+    note_writes(reader, dependent);
+    const std::size_t end = std::min(main_.steps.size(), reader + kFarthest);
+    for (std::size_t step = reader + 1; step < end && !dependent.empty(); ++step) {
+      if (is_unread(op(step)) || rereads(step, read.bits)) return;
+      if (op(step).is_contact) continue;
+      const bool uses = reads_any(step, dependent);
+      if (auto other = second_read(reader, step, read, writer)) second.push_back(*other);
+      for (SecondRead& other : second) {
+        const bool combines = other.step == step || reads_any(step, other.dependent);
+        if (uses && combines) return mixed(reader, read, other);
+        hand_on(step, combines, other.dependent);
+      }
+      hand_on(step, uses, dependent);
+    }
+  }
+
+  void hand_on(std::size_t step, bool depends, std::vector<Bits>& dependent) const {
+    if (depends)
+      note_writes(step, dependent);
+    else
+      forget_overwritten(step, dependent);
+  }
+
+  std::optional<SecondRead> second_read(std::size_t reader, std::size_t step, const Access& read,
+                                        const Foreign& writer) const {
+    for (const Access& access : main_.steps[step].accesses) {
+      if (access.role != Role::In || !is_value(access) || access.bits.overlaps(read.bits)) continue;
+      const auto other = std::ranges::find_if(foreign_, [&](const Foreign& each) {
+        return each.run == writer.run && each.op != writer.op && writes_whole(each, access.bits);
+      });
+      if (other != foreign_.end() && belong_together(reader, step)) return SecondRead{step, access.bits, &*other, {}};
+    }
+    return {};
+  }
+
+  void mixed(std::size_t reader, const Access& read, const SecondRead& other) {
+    const std::size_t count = races_.size();
+    add(Race::Kind::MixedRead, read.bits, {reader, other.step}, *other.writer, true);
+    if (races_.size() != count) races_.back().with = as_named(other.bits);
   }
 
   // --- parts ---
@@ -562,9 +688,9 @@ class RaceFinder {
       if (!meant || foreign.access.somewhere || whole.count < kBitsOfWord || whole.count > kBitsOfDouble) continue;
       std::map<std::uint32_t, std::pair<std::size_t, Bits>> earlier;  // by execution of a routine
       std::set<std::uint32_t> done;
-      for (std::size_t step = 0; step < steps_.size(); ++step) {
+      for (std::size_t step = 0; step < main_.steps.size(); ++step) {
         const auto part = part_of(step, whole, reads);
-        const std::uint32_t call = steps_[step].call;
+        const std::uint32_t call = main_.steps[step].call;
         if (!part || done.contains(call)) continue;
         const auto before = earlier.find(call);
         if (before != earlier.end() && !before->second.second.overlaps(*part)) {
@@ -578,7 +704,7 @@ class RaceFinder {
 
   std::optional<Bits> part_of(std::size_t step, const Bits& whole, bool reads) const {
     if (is_of_first_scan(step)) return {};
-    for (const Access& access : steps_[step].accesses) {
+    for (const Access& access : main_.steps[step].accesses) {
       const bool meant = reads ? access.role == Role::In : access.role == Role::Out;
       const Bits both = overlap_of(access.bits, whole);
       if (meant && access.of_operand && !access.somewhere && both.count >= kBitsOfByte && both.count < whole.count)
@@ -592,17 +718,18 @@ class RaceFinder {
   const Waiter& waiter_;
   Accesses accesses_;
   std::vector<bool> first_scan_;
-  std::vector<PlacedOp> steps_{};  // of the main program
+  Unfolded main_{};  // the main program
   Protection protection_;
   std::uint32_t interrupt_ = 0;
   std::vector<Foreign> foreign_{};
   std::map<std::pair<std::uint64_t, std::uint64_t>, bool> read_first_{};  // what is_read_first() has answered
   std::vector<Race> races_{};
+  std::vector<NotFollowed> not_followed_{};
 };
 
 }  // namespace
 
-std::vector<Race> find_races(const Facts& facts, const Calls& calls, const Waiter& waiter) {
+Races find_races(const Facts& facts, const Calls& calls, const Waiter& waiter) {
   return RaceFinder(facts, calls, waiter).all();
 }
 

@@ -363,7 +363,9 @@ class Search {
   }
 
   /// What is shared, and the memory whose values the rest of the scan works out from it. Parts of a torn word go anywhere.
+  /// Of two words one may well be new and the other old, unless a value comes of both.
   std::vector<Bits> dependent_memory(const std::vector<Machine::Step>& steps, std::size_t first) const {
+    if (race_.kind == Race::Kind::MixedRead) return {};
     if (race_.kind == Race::Kind::TornRead || race_.kind == Race::Kind::TornWrite) return {{0, image::kL * 8u}};
     std::vector<Bits> all{race_.bits}, now;
     const auto is_dependent = [&](const MemoryAccess& access) {

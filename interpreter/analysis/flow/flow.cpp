@@ -92,10 +92,11 @@ ControlFlow control_flow(const Program& program) {
     const Op& op = program.ops[i];
     if (structure(op) == Structure::SegmentBegin) in_segment = true;
     if (structure(op) == Structure::SegmentEnd) in_segment = false;
-    flow.nodes[i].powered = powered;
+    flow.nodes[i].powered = powered && !in_segment;
+    flow.nodes[i].powered_if_active = powered;
     flow.nodes[i].network = networks.first_of(i);
     find_next(op, i, flow.nodes[i]);
-    powered = !in_segment && powered_after(op, powered);
+    powered = powered_after(op, powered);
   }
   for (std::uint32_t i = 0; i < program.ops.size(); ++i) note_start(flow, program.ops[i], i);
   return flow;

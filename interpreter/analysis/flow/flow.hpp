@@ -26,6 +26,7 @@ struct FlowNode {
   std::vector<std::uint32_t> next;  ///< ops of the same routine, one of which follows; after a CALL, when that has returned
   bool ends = false;                ///< the routine or the scan may end with it
   bool powered = false;             ///< the top of the logic stack is surely 1 in front of it
+  bool powered_if_active = false;   ///< the same while its segment is active; outside segments as `powered`
   std::uint32_t routine = 0;        ///< in ControlFlow::routines
   std::uint32_t network = 0;        ///< the first op of its network
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "interpreter/analysis/effects/memory_names.hpp"
+#include "interpreter/analysis/selection.hpp"
 #include "interpreter/base/text/joined.hpp"
 #include "tests/support/plc.hpp"
 
@@ -15,9 +16,9 @@ std::string races_in(const std::string& stl) {
   const auto program = program_of(stl, *find_cpu("224"));
   const Facts facts = facts_of(*program);
   return stl::joined(
-      find_races(facts, calls_of(*program, facts.flow)),
+      find_races(facts, calls_of(*program, facts.flow)).races,
       [](const Race& race) {
-        constexpr std::array kKinds{"lost", "overwritten", "scratch", "torn read", "torn write"};
+        constexpr std::array kKinds{"lost", "overwritten", "scratch", "torn read", "torn write", "mixed"};
         return fmt::format("{}{} {} {}-{}", kKinds[static_cast<std::size_t>(race.kind)], race.suspected ? "?" : "",
                            memory_text(race.bits), race.first - 3, race.last - 3);
       },
@@ -85,6 +86,57 @@ TEST(Races, DisiInASubroutineKeepsTheInterruptAwayIfTheSubroutineIsSurelyCalled)
       << "in the rung of the CALL";
 }
 
+TEST(Races, DisiInAForThatMayRunNoPassIsNotSure) {
+  constexpr std::string_view kUpdate = "LD SM0.0\nMOVW VW10, AC0\n+I 3, AC0\nMOVW AC0, VW10\n";
+  for (const std::string_view away : {"DISI", "DTCH 10"}) {
+    const auto after = [&](std::string_view condition, std::string_view passes) {
+      return races(fmt::format("{}\nFOR VW0, {}\nLD SM0.0\n{}\nNEXT\n{}", condition, passes, away, kUpdate), kCounts);
+    };
+    EXPECT_EQ(after("LD SM0.0", "1, VW2"), "lost VW10 6-8") << away;
+    EXPECT_EQ(after("LD SM0.0", "1, 0"), "lost VW10 6-8") << away;
+    EXPECT_EQ(after("LD I0.0", "1, 3"), "lost VW10 6-8") << away;
+    EXPECT_EQ(after("LD SM0.0", "1, 3"), "") << away;
+    EXPECT_EQ(after("LD SM0.0", "3, 3"), "") << away;
+  }
+  EXPECT_EQ(races(fmt::format("LD SM0.0\nFOR VW0, 1, VW2\nLD SM0.0\nDISI\n{}ENI\nNEXT\n", kUpdate), kCounts), "")
+      << "in the same pass";
+}
+
+TEST(Races, EniInAPassOfAForComesInFrontOfTheNextPass) {
+  const auto in_pass = [](std::string_view end, std::string_view passes) {
+    return races(fmt::format("LD SM0.0\nDISI\nFOR VW0, {}\nLD SM0.0\nMOVW VW10, AC0\n+I 3, AC0\nMOVW AC0, VW10\n{}\nNEXT\n"
+                             "LD SM0.0\nENI\n",
+                             passes, end),
+                 kCounts);
+  };
+  EXPECT_EQ(in_pass("ENI", "1, 3"), "lost VW10 4-6");
+  EXPECT_EQ(in_pass("ENI\nDISI", "1, 3"), "");
+  EXPECT_EQ(in_pass("ENI\nLD I0.0\nDISI", "1, 3"), "lost VW10 4-6");
+  EXPECT_EQ(in_pass("INCW VW2", "1, 3"), "");
+  EXPECT_EQ(
+      races("LD SM0.0\nDISI\nLBL 1\nLD SM0.0\nMOVW VW10, AC0\n+I 3, AC0\nMOVW AC0, VW10\nENI\nLD I0.0\nJMP 1\n", kCounts),
+      "lost VW10 4-6")
+      << "a jump back";
+}
+
+TEST(Races, DisiInASegmentHoldsWhileTheSegmentIsActive) {
+  constexpr std::string_view kUpdate = "LD SM0.0\nMOVW VW10, AC0\n+I 3, AC0\nMOVW AC0, VW10\n";
+  EXPECT_EQ(races(fmt::format("LSCR S0.1\nLD SM0.0\nDISI\nSCRE\n{}", kUpdate), kCounts), "lost VW10 5-7");
+  EXPECT_EQ(races(fmt::format("LD SM0.0\nDISI\nLSCR S0.1\nLD SM0.0\nENI\nSCRE\n{}", kUpdate), kCounts), "lost VW10 7-9");
+  EXPECT_EQ(races(fmt::format("LD SM0.0\nDISI\nLSCR S0.1\nLD SM0.0\nINCW VW2\nSCRE\n{}", kUpdate), kCounts), "");
+  EXPECT_EQ(races(fmt::format("LSCR S0.1\nLD SM0.0\nDISI\n{}LD SM0.0\nENI\nSCRE\n", kUpdate), kCounts), "");
+  EXPECT_EQ(races(fmt::format("LSCR S0.1\nLD I0.0\nDISI\n{}SCRE\n", kUpdate), kCounts), "lost VW10 4-6");
+  EXPECT_EQ(races(fmt::format("LSCR S0.1\nLD SM0.0\nDISI\nSCRE\nLSCR S0.2\n{}SCRE\n", kUpdate), kCounts), "lost VW10 6-8");
+}
+
+TEST(Races, ARungThatBeginsBehindDisiHasPowerFlowWithoutIt) {
+  EXPECT_EQ(races("LD I0.0\nDISI\nLDW= VW10, 9\nMOVW 0, VW10\n", kCounts), "lost? VW10 2-3");
+  EXPECT_EQ(races("LD I0.0\nDISI\nAW= VW10, 9\nMOVW 0, VW10\n", kCounts), "");
+  EXPECT_EQ(races("LD I0.0\nJMP 1\nLD SM0.0\nDISI\nLBL 1\nLD SM0.0\nMOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\n", kCounts),
+            "lost VW10 6-8")
+      << "jumped over";
+}
+
 TEST(Races, ASubroutineThatHandsSomethingBackDoesNotEndWhatDisiCovers) {
   constexpr std::string_view kUpdate = "DISI\nCALL Work, VW50\nMOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\nENI\n";
   const auto of = [&](std::string_view condition, std::string_view update) {
@@ -123,6 +175,24 @@ TEST(Races, PartsOfWhatTheInterruptAccessesAsAWhole) {
   EXPECT_EQ(races("LD I0.0\nMOVW VW10, VW20\nMOVW VW12, VW22\n", "LD SM0.0\nINCD VD10\n"), "torn read VD10 1-2");
   EXPECT_EQ(races("LD I0.0\nMOVD VD10, VD20\n", "LD SM0.0\nINCD VD10\n"), "");
   EXPECT_EQ(races("LD I0.0\nMOVB VB30, VB10\nMOVB VB31, VB11\n", "LD SM0.0\nMOVW VW10, VW20\n"), "torn write VW10 1-2");
+}
+
+TEST(Races, AValueOfTwoWordsThatTheInterruptWritesTogether) {
+  constexpr std::string_view kPair = "LD SM0.0\nMOVW VW30, VW10\nMOVW VW32, VW14\n";
+  constexpr std::string_view kMixes = "MOVW VW10, AC0\n-I VW14, AC0\nMOVW AC0, VW20\n";
+  const auto main = [](std::string_view lines) { return fmt::format("LD I0.0\n{}", lines); };
+  EXPECT_EQ(races(main(kMixes), kPair), "mixed? VW10 1-2");
+  EXPECT_EQ(races(main("MOVW VW10, AC0\nMOVW VW14, AC1\nINCW AC1\n*I AC1, AC0\n"), kPair), "mixed? VW10 1-2");
+  EXPECT_EQ(races(main("MOVW VW10, VW20\nMOVW VW14, VW22\nMOVD VD20, VD40\n"), kPair), "mixed? VW10 1-2")
+      << "a double word made of both";
+  EXPECT_EQ(races(main("MOVW VW10, VW20\nMOVW VW14, VW22\n"), kPair), "") << "each for itself";
+  EXPECT_EQ(races(main("MOVW VW10, AC0\nMOVW 0, AC0\n-I VW14, AC0\n"), kPair), "") << "the first is no longer used";
+  EXPECT_EQ(races(main("MOVD VD10, AC0\nMOVW VW14, AC0\n+I 1, AC0\n"), "LD SM0.0\nINCD VD10\nINCW VW14\n"), "")
+      << "written over in the lower half";
+  EXPECT_EQ(races(main(fmt::format("DISI\n{}ENI\n", kMixes)), kPair), "");
+  EXPECT_EQ(races(main(kMixes), "LD SM0.0\nMOVW VW30, VW10\nLD I0.1\nMOVW VW32, VW14\n"), "") << "one without the other";
+  EXPECT_EQ(races(main(kMixes), "LD SM0.0\nMOVW VW30, VW10\nLD SM0.0\nMOVW VW32, VW14\n"), "mixed? VW10 1-2");
+  EXPECT_EQ(races("LD I0.0\nMOVW VW10, AC0\nLD I0.1\n-I VW14, AC0\n", kPair), "") << "in other rungs";
 }
 
 TEST(Races, BitsAndAccumulatorsAndBuffersAreNone) {
@@ -195,6 +265,12 @@ TEST(Races, ReadInOneRoutineAndWrittenInAnother) {
   EXPECT_EQ(races("LD SM0.0\nDISI\nCALL 1\nCALL 2\nENI\n", kCounts, both), "");
 }
 
+TEST(Races, ABlockOfAnyConstantLengthIsWrittenByTheInterrupt) {
+  constexpr std::string_view kUpdate = "LD I0.0\nMOVW VW410, AC0\nINCW AC0\nMOVW AC0, VW410\n";
+  EXPECT_EQ(races(kUpdate, "LD SM0.0\nFILL 0, VW100, 200\n"), "lost VW410 1-3");
+  EXPECT_EQ(races(kUpdate, "LD SM0.0\nFILL 0, VW100, 100\n"), "") << "the last is VW298";
+}
+
 TEST(Races, ATableCountsInItsSecondWord) {
   EXPECT_EQ(races("LD SM0.0\nMOVW VW302, AC0\nDECW AC0\nMOVW AC0, VW302\n", "LD SM0.0\nATT VW0, VW300\n"), "lost VW302 1-3");
   EXPECT_EQ(races("LDW> VW302, 0\nFIFO VW300, VW200\n", "LD SM0.0\nATT VW0, VW300\n"), "") << "in one instruction";
@@ -237,6 +313,75 @@ TEST(Races, DtchHoldsOnlyIfNoOtherInterruptAttachesTheEventAgain) {
   EXPECT_EQ(with("SBR 1\nLD SM0.0\nATCH 0, 10\nRET\nINT 1\nLD SM0.0\nCALL 1\nRETI\n"), "lost VW10 3-5");
   EXPECT_EQ(with("INT 1\nLD SM0.0\nINCW VW20\nRETI\n"), "");
   EXPECT_EQ(with("INT 1\nRETI\n", "LD SM0.0\nINCW VW10\nATCH 0, 10\n"), "") << "it does not come itself";
+}
+
+/// `CALLED by CALL: REASON` of each, with the CALL's op counted as in races().
+std::string not_followed(const std::string& stl) {
+  const auto program = program_of(stl, *find_cpu("224"));
+  const Facts facts = facts_of(*program);
+  return stl::joined(
+      find_races(facts, calls_of(*program, facts.flow)).not_followed,
+      [&](const NotFollowed& left) {
+        const bool deep = left.reason == NotFollowed::Reason::DeeperThanTheCpuCalls;
+        return fmt::format("{} of {} by {}: {}", routine_text(facts.flow.routines[left.routine]),
+                           routine_text(facts.flow.routines[left.from]), left.call, deep ? "deep" : "many");
+      },
+      "; ");
+}
+
+constexpr std::string_view kHead = "LD SM0.1\nATCH 0, 10\nENI\n";
+
+/// Subroutines from `first` to `last`, each of which calls the next one `times` times; the last has other instructions.
+std::string chain(int first, int last, int times, std::string_view end) {
+  std::string stl;
+  for (int number = first; number < last; ++number) {
+    stl += fmt::format("SBR {}\nLD SM0.0\n", number);
+    for (int i = 0; i < times; ++i) stl += fmt::format("CALL {}\n", number + 1);
+    stl += "RET\n";
+  }
+  return stl + fmt::format("SBR {}\n{}RET\n", last, end);
+}
+
+constexpr std::string_view kUpdates = "LD SM0.0\nMOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\n";
+
+TEST(Races, CallsAreFollowedAsDeepAsTheCpuNestsThem) {
+  const auto of = [](int deepest) {
+    return fmt::format("{}LD SM0.0\nCALL 1\nMEND\n{}INT 0\n{}RETI\n", kHead, chain(1, deepest, 1, kUpdates), kCounts);
+  };
+  EXPECT_EQ(races_in(of(8)), "lost VW10 33-35");
+  EXPECT_EQ(not_followed(of(8)), "");
+  EXPECT_EQ(races_in(of(9)), "") << "the CPU does not call it";
+  EXPECT_EQ(not_followed(of(9)), "SBR_9 of MAIN by 36: deep");
+}
+
+TEST(Races, CallsOfAnInterruptRoutineAreFollowedAsDeepAsTheCpuNestsThem) {
+  const auto of = [](int deepest) {
+    return fmt::format("{}{}MEND\n{}INT 0\nLD SM0.0\nCALL 1\nRETI\n", kHead, kUpdates, chain(1, deepest, 1, kCounts));
+  };
+  EXPECT_EQ(races_in(of(1)), "lost VW10 1-3");
+  EXPECT_EQ(not_followed(of(1)), "");
+  EXPECT_EQ(not_followed(of(2)), "SBR_2 of INT_0 by 10: deep");
+}
+
+TEST(Races, ARoutineThatCallsItselfIsFollowed) {
+  const std::string stl =
+      fmt::format("{}LD SM0.0\nCALL 1\nMEND\nSBR 1\nLD I0.0\nCALL 1\n{}RET\nINT 0\n{}RETI\n", kHead, kUpdates, kCounts);
+  EXPECT_EQ(races_in(stl), "lost VW10 7-9");
+  EXPECT_EQ(not_followed(stl), "SBR_1 of MAIN by 8: deep");
+}
+
+TEST(Races, CallsBehindTooManyStepsAreNamed) {
+  const auto of = [](int times) {
+    return fmt::format("{}LD SM0.0\nCALL 1\nLD SM0.0\nCALL 20\nMEND\n{}{}INT 0\n{}RETI\n", kHead,
+                       chain(1, 7, times, "LD SM0.0\n"), chain(20, 20, 1, kUpdates), kCounts);
+  };
+  EXPECT_EQ(not_followed(of(6)), "") << "more than 60 000";
+  EXPECT_EQ(races_in(of(6)).substr(0, 9), "lost VW10");
+  EXPECT_NE(not_followed(of(12)).find("SBR_20 of MAIN by 6: many"), std::string::npos) << not_followed(of(12));
+}
+
+TEST(Races, WithoutEniNothingIsLeftOut) {
+  EXPECT_EQ(not_followed("LD SM0.0\nCALL 1\nMEND\nSBR 1\nLD I0.0\nCALL 1\nRET\n"), "");
 }
 
 }  // namespace

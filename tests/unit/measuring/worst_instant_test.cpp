@@ -63,6 +63,16 @@ TEST(WorstInstant, MayBeAnyBetweenTheTwo) {
   EXPECT_NE(timer.find("lost: T5 is"), std::string::npos) << timer;
 }
 
+TEST(WorstInstant, MixesTwoWordsToAValueThatComesOfNeitherOrder) {
+  const std::string text = races_of("LD SM0.0\nMOVW VW10, AC0\n-I VW14, AC0\nMOVW AC0, VW20\n", "+I 5, VW10\n-I 3, VW14\n");
+  EXPECT_NE(text.find("mixed read of VW10 and VW14: the main program works out one value from both"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("16#0003, but 16#0008 if it comes before, 16#0000"), std::string::npos) << text;
+  EXPECT_EQ(races_of("LD SM0.0\nMOVW VW10, AC0\n-I VW14, AC0\nMOVW AC0, VW20\n", "MOVW 5, VW10\nMOVW VW14, VW14\n"),
+            "no races found\n")
+      << "the second does not change";
+}
+
 TEST(WorstInstant, IsFoundInALaterPassOfALoop) {
   const std::string text = races_of(
       "LD SM0.0\nMOVD &VB100, AC1\nFOR VW0, 1, 5\nLD SM0.0\nMOVW *AC1, AC0\nINCW AC0\nMOVW AC0, *AC1\n+D 2, AC1\nNEXT\n",

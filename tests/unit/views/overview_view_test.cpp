@@ -31,6 +31,14 @@ TEST(OverviewView, SaysWhatStartsEachRoutine) {
   EXPECT_NE(text.find("event 10: timed interrupt 0, SMB34\n"), std::string::npos) << text;
 }
 
+TEST(OverviewView, SaysHowManyCallsWereNotFollowedForRaces) {
+  const auto look = test::inspected(
+      "LD SM0.1\nATCH 0, 10\nENI\nCALL 1\nLD SM0.0\nCALL 1\nMEND\nSBR 1\nLD I0.0\nCALL 1\nRET\nINT 0\nRETI\n");
+  EXPECT_NE(overview_text(look).find("races: 1 call not followed: see the view races\n"), std::string::npos);
+  EXPECT_EQ(overview_json(look)["races"], 0);
+  EXPECT_EQ(overview_json(look)["races_not_followed"], 1);
+}
+
 TEST(OverviewView, NamesBitsThatAreOnlySetOrOnlyReset) {
   const auto look = [](std::string_view stl) { return overview_json(test::inspected(stl))["worth_a_look"]; };
   const auto latch = look("LD I0.0\nS M0.0, 1\nLD M0.0\n= Q0.0\nMEND\n");

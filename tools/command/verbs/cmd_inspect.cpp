@@ -68,6 +68,8 @@ int run_inspect(const InspectOptions& options) {
     if (options.json) {
       files.push_back({{"file", file.path}, {"cpu", inspection->program->model->name}});
       files.back()[std::string(request.view->name)] = request.view->json(*inspection);
+      if (const auto not_followed = request.view->not_followed_json)
+        files.back()["not_followed"] = not_followed(*inspection);
     } else if (!picture) {
       const std::string text = request.view->text(*inspection);
       progress.end();

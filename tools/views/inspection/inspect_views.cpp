@@ -28,7 +28,7 @@ std::span<const InspectView> inspect_views() {
       InspectView{"steps", "the steps of the sequence: what activates each, its transitions, what it does", true, steps_text,
                   steps_json},
       InspectView{"races", "words that the main program and an interrupt share and do not access in one instruction", true,
-                  races_text, races_json},
+                  races_text, races_json, nullptr, not_followed_json},
       InspectView{"bounds", "how long a scan, a routine and the wait for an interrupt can take at most", false, bounds_text,
                   bounds_json},
       InspectView{"ladder", "the networks as ladder: contacts, coils and boxes; also as SVG", true, ladder_text, ladder_json,

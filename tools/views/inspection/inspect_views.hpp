@@ -17,6 +17,8 @@ struct InspectView {
   std::string (*text)(const Inspection& inspection);
   nlohmann::ordered_json (*json)(const Inspection& inspection);
   std::string (*svg)(const Inspection& inspection) = nullptr;  ///< the same as a picture; null where there is none
+  /// What it did not look at and why, its key `not_followed`; null where it looks at all.
+  nlohmann::ordered_json (*not_followed_json)(const Inspection& inspection) = nullptr;
 };
 
 /// In the order of the help.

@@ -31,13 +31,13 @@ struct Overview {
       : inspection(of),
         calls(calls_of(*of.program, of.facts.flow)),
         reference(cross_reference(of.facts)),
-        races(found_races(of).size()),
+        races(found_races(of)),
         remarks(remarks_of(of.facts, reference)) {}
 
   const Inspection& inspection;
   Calls calls;
   CrossReference reference;
-  std::size_t races;
+  FoundRaces races;
   std::vector<Remark> remarks;
 
   std::size_t networks() const {
@@ -174,7 +174,10 @@ std::string overview_text(const Inspection& inspection) {
   text += list_text("written, never read", overview.with_usage(Usage::NeverRead)) +
           list_text("read, never written", overview.with_usage(Usage::NeverWritten));
   text += remarks_text(overview);
-  if (overview.races != 0) text += fmt::format("{}: see the view races\n", counted(overview.races, "race"));
+  if (const std::size_t races = overview.races.races.size(); races != 0)
+    text += fmt::format("{}: see the view races\n", counted(races, "race"));
+  if (const std::size_t calls = overview.races.not_followed.size(); calls != 0)
+    text += fmt::format("races: {} not followed: see the view races\n", counted(calls, "call"));
   return text;
 }
 
@@ -192,7 +195,8 @@ ordered_json overview_json(const Inspection& inspection) {
           {"never_read", overview.with_usage(Usage::NeverRead)},
           {"never_written", overview.with_usage(Usage::NeverWritten)},
           {"worth_a_look", remarks_json(overview)},
-          {"races", overview.races}};
+          {"races", overview.races.races.size()},
+          {"races_not_followed", overview.races.not_followed.size()}};
 }
 
 }  // namespace s7200::tools

@@ -27,9 +27,11 @@ std::string_view name_of(Race::Kind kind) {
     case Race::Kind::TornRead:
       return "torn read";
     case Race::Kind::TornWrite:
+      return "torn write";
+    case Race::Kind::MixedRead:
       break;
   }
-  return "torn write";
+  return "mixed read";
 }
 
 std::string_view explanation(Race::Kind kind) {
@@ -44,9 +46,11 @@ std::string_view explanation(Race::Kind kind) {
     case Race::Kind::TornRead:
       return "the main program reads it in parts; between them the interrupt writes all of it";
     case Race::Kind::TornWrite:
+      return "the main program writes it in parts; between them the interrupt reads all of it";
+    case Race::Kind::MixedRead:
       break;
   }
-  return "the main program writes it in parts; between them the interrupt reads all of it";
+  return "the main program works out one value from both; between its reads the interrupt writes both";
 }
 
 std::string with_symbols(const Inspection& inspection, const Bits& bits) {
@@ -57,8 +61,17 @@ std::string with_symbols(const Inspection& inspection, const Bits& bits) {
   return text;
 }
 
+std::string shared_text(const Inspection& inspection, const Race& race) {
+  const std::string text = with_symbols(inspection, race.bits);
+  return race.with ? fmt::format("{} and {}", text, with_symbols(inspection, *race.with)) : text;
+}
+
+std::string memory_of(const Race& race) {
+  return race.with ? fmt::format("{}, {}", memory_text(race.bits), memory_text(*race.with)) : memory_text(race.bits);
+}
+
 bool is_wanted(const Selection& selection, const Race& race) {
-  const bool memory = selection.memory.empty() || selection.has(race.bits);
+  const bool memory = selection.memory.empty() || selection.has(race.bits) || (race.with && selection.has(*race.with));
   const bool ops = selection.ops.empty() || selection.has_op(race.first) || selection.has_op(race.last) ||
                    selection.has_op(race.interrupt);
   return memory && ops;
@@ -83,45 +96,86 @@ std::string scenario_text(const Inspection& inspection, const FoundRace& found) 
 
 std::string race_text(const Inspection& inspection, const FoundRace& found) {
   const Race& race = found.race;
-  std::string text =
-      fmt::format("{} of {}: {}", name_of(race.kind), with_symbols(inspection, race.bits), explanation(race.kind));
+  std::string text = fmt::format("{} of {}: {}", name_of(race.kind), shared_text(inspection, race), explanation(race.kind));
   text = wrapped_at(text, 2) + "\n";
   text += row_text(inspection, "  main       ", race.first) + row_text(inspection, "  main       ", race.last);
   text += row_text(inspection, fmt::format("  event {}", column(std::to_string(race.event), 5)), race.interrupt);
   return text + scenario_text(inspection, found);
 }
 
+/// Why a CALL was not followed.
+std::string reason_text(const Inspection& inspection, const NotFollowed& left) {
+  if (left.reason == NotFollowed::Reason::TooManySteps)
+    return fmt::format("{} instructions are executed before it, and no further calls are followed", kMostStepsOfRaces);
+  const CpuModel& model = *inspection.program->model;
+  const bool in_main = left.from == 0;
+  const std::uint32_t most = in_main ? model.call_depth : model.interrupt_call_depth;
+  return fmt::format("the CPU nests {}{}; one more is run-time error 0008, and calls nothing", counted(most, "call"),
+                     in_main ? "" : " in an interrupt routine");
+}
+
+std::string not_followed_text(const Inspection& inspection, const NotFollowed& left) {
+  const auto& routines = inspection.facts.flow.routines;
+  const std::string text =
+      fmt::format("not looked at: {}, called in {} ({}, from {}): {}", routine_in_words(inspection, routines[left.routine]),
+                  place_in_words(inspection, left.call), instruction_text(inspection, left.call),
+                  routine_text(routines[left.from]), reason_text(inspection, left));
+  return wrapped_at(text, 2) + "\n";
+}
+
+bool is_wanted(const Selection& selection, const NotFollowed& left) {
+  return selection.ops.empty() || selection.has_op(left.call);
+}
+
+Races wanted_races(const Inspection& inspection) {
+  Races all = find_races(inspection.facts, calls_of(*inspection.program, inspection.facts.flow), inspection.waiter);
+  const auto is_other = [&](const auto& each) { return !is_wanted(inspection.selection, each); };
+  std::erase_if(all.races, is_other);
+  std::erase_if(all.not_followed, is_other);
+  return all;
+}
+
 }  // namespace
 
-std::vector<FoundRace> found_races(const Inspection& inspection) {
-  std::vector<FoundRace> all;
-  for (const Race& race :
-       find_races(inspection.facts, calls_of(*inspection.program, inspection.facts.flow), inspection.waiter)) {
-    if (!is_wanted(inspection.selection, race)) continue;
+FoundRaces found_races(const Inspection& inspection) {
+  Races wanted = wanted_races(inspection);
+  FoundRaces all{{}, std::move(wanted.not_followed)};
+  for (const Race& race : wanted.races) {
     const bool runs = inspection.lose_word && !inspection.has_errors && !inspection.was_interrupted();
     auto lost = runs ? inspection.lose_word(inspection, race) : std::nullopt;
-    if (lost || !race.suspected) all.push_back({race, std::move(lost)});
+    if (lost || !race.suspected) all.races.push_back({race, std::move(lost)});
   }
   return all;
 }
 
 std::string races_text(const Inspection& inspection) {
-  const std::vector<FoundRace> races = found_races(inspection);
+  const auto [races, not_followed] = found_races(inspection);
   std::string text;
   for (const FoundRace& race : races) text += race_text(inspection, race);
+  for (const NotFollowed& left : not_followed) text += not_followed_text(inspection, left);
   if (inspection.was_interrupted())
     return text + fmt::format("{} found before the interruption\n", counted(races.size(), "race"));
-  if (races.empty()) text += "no races found\n";
+  if (races.empty()) text += not_followed.empty() ? "no races found\n" : "no races found in the rest\n";
   if (inspection.has_errors) text += "the program has errors and was not run: what only a run can show is left out\n";
   if (races.empty()) return text;
   return text + fmt::format("{}; DISI before the first instruction and ENI after the last keep the interrupt away\n",
                             counted(races.size(), "race"));
 }
 
+ordered_json not_followed_json(const Inspection& inspection) {
+  ordered_json all = ordered_json::array();
+  for (const NotFollowed& left : wanted_races(inspection).not_followed)
+    all.push_back({{"call", place_json(inspection, left.call)},
+                   {"called", routine_text(inspection.facts.flow.routines[left.routine])},
+                   {"from", routine_text(inspection.facts.flow.routines[left.from])},
+                   {"why", reason_text(inspection, left)}});
+  return all;
+}
+
 ordered_json races_json(const Inspection& inspection) {
   ordered_json all = ordered_json::array();
-  for (const auto& [race, lost] : found_races(inspection)) {
-    ordered_json json{{"kind", name_of(race.kind)}, {"memory", memory_text(race.bits)}, {"event", race.event}};
+  for (const auto& [race, lost] : found_races(inspection).races) {
+    ordered_json json{{"kind", name_of(race.kind)}, {"memory", memory_of(race)}, {"event", race.event}};
     json["interrupt_routine"] = routine_text(inspection.facts.flow.routines[race.routine]);
     json["first"] = place_json(inspection, race.first);
     json["last"] = place_json(inspection, race.last);

@@ -17,11 +17,19 @@ struct FoundRace {
   std::optional<LostWord> lost;
 };
 
+struct FoundRaces {
+  std::vector<FoundRace> races;
+  std::vector<NotFollowed> not_followed;
+};
+
 /// All of them, or those of memory or routines of the selection. Those that are suspected only if a run loses the word.
-std::vector<FoundRace> found_races(const Inspection& inspection);
+FoundRaces found_races(const Inspection& inspection);
 
 /// All of them, or those of memory or routines of the selection.
 std::string races_text(const Inspection& inspection);
 nlohmann::ordered_json races_json(const Inspection& inspection);
+
+/// The calls behind which no races were looked for, and why.
+nlohmann::ordered_json not_followed_json(const Inspection& inspection);
 
 }  // namespace s7200::tools
