@@ -136,8 +136,27 @@ def pointer_elsewhere(p):
                "+D 2, AC1", "NEXT"]
 
 
+def pair_copied(p):
+    """Two words that the interrupt writes together, each looked at for itself."""
+    first, second, to = p.memory(), p.memory(), p.memory()
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"INCW VW{first}", f"+I 3, VW{second}"]
+    p.main += [p.condition(), f"MOVW VW{first}, VW{to}", f"MOVW VW{second}, VW{to + 4}"]
+
+
+def pair_protected(p):
+    first, second = p.memory(), p.memory()
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"INCW VW{first}", f"+I 3, VW{second}"]
+    p.main += [p.condition(), "DISI", f"MOVW VW{first}, AC0", f"-I VW{second}, AC0", "ENI", f"MOVW AC0, VW{p.memory()}"]
+
+
+def loop_protected(p):
+    word, index = p.memory(), p.memory()
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"INCW VW{word}"]
+    p.main += ["LD SM0.0", f"FOR VW{index}, 1, 3", "LD SM0.0", "DISI", f"MOVW VW{word}, AC0", "+I 3, AC0", f"MOVW AC0, VW{word}", "ENI", "NEXT"]
+
+
 HARMLESS = [filler, filler, single, protected, protected_call, accumulators, whole, handshake, detached, threshold, threshold_with_copy,
-            shown_and_reset, mailbox, pointer_elsewhere]
+            shown_and_reset, mailbox, pointer_elsewhere, pair_copied, pair_protected, loop_protected]
 
 
 # --- races ---
@@ -265,9 +284,24 @@ def count_of_table(p):
     return ["LD SM0.0", f"@MOVW VW{table + 2}, AC0", "-I 1, AC0", f"@MOVW AC0, VW{table + 2}"]
 
 
+def mixed_read(p):
+    first, second = p.memory(), p.memory()
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"+I {p.chance.randrange(1, 50)}, VW{first}", f"-I {p.chance.randrange(1, 50)}, VW{second}"]
+    return [p.condition(), *p.chance.choice([[f"@MOVW VW{first}, AC0", *between(p), f"@-I VW{second}, AC0"],
+                                             [f"@MOVW VW{first}, AC0", f"@MOVW VW{second}, AC1", "-I AC1, AC0"]]), f"MOVW AC0, VW{p.memory()}"]
+
+
+def disi_in_loop(p):
+    """The loop may run no pass."""
+    word, index, last = p.memory(), p.memory(), p.memory()
+    p.interrupts[p.chance.randrange(2)] += ["LD SM0.0", f"INCW VW{word}"]
+    return ["LD SM0.0", f"FOR VW{index}, 1, VW{last}", "LD SM0.0", "DISI", "NEXT", "LD SM0.0", f"@MOVW VW{word}, AC0", "+I 5, AC0",
+            f"@MOVW AC0, VW{word}", "ENI"]
+
+
 RACES = [accumulator, through_memory, compare_and_reset, pointer_of_main, pointer_of_interrupt, pointer_in_memory, bytes_of_mask,
          in_subroutine, interrupt_in_subroutine, networks_apart, torn_read, torn_write, self_holding, read_and_clear, pointer_in_loop, two_subroutines,
-         scratch, count_of_table]
+         scratch, count_of_table, mixed_read, disi_in_loop]
 
 
 def program(seed, race):
