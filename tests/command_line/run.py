@@ -2556,7 +2556,7 @@ class JsonPage(Case):
                     ["inspect", *Inspect.PUMP], ["inspect", SLAVE, "xref"], ["inspect", SLAVE, "xref", "VW4"], ["inspect", SLAVE, "calls"],
                     ["inspect", self.program("LD SM0.1\nDISI\nMEND\n", "disabled.stl"), "calls"],
                     ["inspect", self.program("LD I0.0\nLD I0.1\nCTU C5, 12\nTON T37, 5\nMOVB 16#81, SMB31\nMEND\n", "eeprom.stl"), "map"],
-                    ["inspect", *Inspect.PUMP, "map"], ["inspect", EXPORTS / "races.awl", "races"], ["inspect", self.program(self.CALLS_ITSELF, "calls_itself.stl"), "races"], ["inspect", SLAVE, "bounds"], ["inspect", *Inspect.PUMP, "document"],
+                    ["inspect", *Inspect.PUMP, "map"], ["inspect", EXPORTS / "races.awl", "races"], ["inspect", self.program(self.CALLS_ITSELF, "calls_itself.stl"), "races"], ["inspect", EXPORTS / "races.awl", "shared"], ["inspect", SLAVE, "bounds"], ["inspect", *Inspect.PUMP, "document"],
                     ["inspect", self.program("LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nMEND\nINT 0\nLD SM0.0\nFOR VW0, 1, AC0\nNEXT\nRETI\n", "loop.stl"), "bounds"], ["inspect", SOURCE / "tests/programs/libraries/slave.awl", "map"],
                     ["inspect", self.program(self.WIDE, "wide.stl"), "ladder"],
                     ["import", "--compare", self.program(Files.DRAWING.replace("LD", "LDN"), "drawn.txt")], ["run", faulty, *plant],
@@ -2767,7 +2767,7 @@ class Inspect(Case):
     PUMP = [EXPORTS / "pump.awl", EXPORTS / "pump_symbols.txt", EXPORTS / "pump_data.txt"]
 
     def test_views_keep_to_100_columns_and_need_no_colour(self):
-        for view in ("overview", "xref", "calls", "map", "steps", "races", "ladder", "bounds"):
+        for view in ("overview", "xref", "calls", "map", "steps", "races", "shared", "ladder", "bounds"):
             for program in ([SLAVE], self.PUMP):
                 with self.subTest(view=view, program=program):
                     shown = self.ends(FINE, "inspect", *program, view).stdout

@@ -58,7 +58,7 @@ bool is_place(const stl::Operand& operand) {
 }
 
 /// The low word of a double word: VW6 of VD4, AC0 of AC0. Empty for another operand.
-std::string low_word(const stl::Operand& operand) {
+std::string low_word_text(const stl::Operand& operand) {
   const auto* address = std::get_if<stl::Address>(&operand.value);
   if (!address || (address->size != stl::Size::Double && address->area != "AC")) return {};
   if (address->area == "AC") return stl::to_text(operand);
@@ -92,7 +92,7 @@ std::string in_steps(const Instruction& instruction, const stl::Statement& state
   const auto place_of_out = std::ranges::find(last.operands, statement.operands.size() - 1) - last.operands.begin();
   const Width of_out = last.instruction->operand[static_cast<std::size_t>(place_of_out)].width;
   const bool widens = of_out != move.instruction->operand[1].width;
-  const std::string to = widens ? low_word(out) : text_of(out);
+  const std::string to = widens ? low_word_text(out) : text_of(out);
   if (to.empty())
     return fmt::format("write MOVW IN1 into the low word of OUT, then {} IN2, OUT", last.instruction->mnemonic);
   const auto step = [&](std::size_t input) {

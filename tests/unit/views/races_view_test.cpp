@@ -2,6 +2,7 @@
 #include "tools/views/inspection/races_view.hpp"
 
 #include "tests/support/inspected.hpp"
+#include "tools/views/inspection/shared_view.hpp"
 
 namespace s7200::tools::races_view_test {
 namespace {
@@ -33,6 +34,25 @@ TEST(RacesView, JsonHasTheCallsThatWereNotFollowed) {
   EXPECT_EQ(json[1]["why"],
             "the CPU nests 1 call in an interrupt routine; one more is run-time error 0008, and calls nothing");
   EXPECT_EQ(not_followed_json(inspected(kCallsItself, {"SBR_2"})).size(), 1U);
+}
+
+constexpr std::string_view kSharing =
+    "LD SM0.1\nATCH 0, 10\nENI\nLD SM0.0\nMOVW VW10, VW20\nMOVW VW30, VW32\nCALL 1\nMEND\nSBR 1\nLD SM0.0\nMOVW 0, VW10\nRET\n"
+    "INT 0\nLD SM0.0\nINCW VW10\nMOVW VW40, VW42\nCALL 2\nRETI\nSBR 2\nLD SM0.0\nMOVB VB31, VB50\nRET\nINT 1\nLD SM0.0\n"
+    "MOVW VW20, VW60\nRETI\n";
+
+TEST(RacesView, WhatBothSidesUseIsListedWithWhoWritesIt) {
+  EXPECT_EQ(shared_text(inspected(kSharing)),
+            "VW10\n"
+            "  MAIN        writes in test.stl:11; reads in test.stl:5\n"
+            "  INT_0       writes in test.stl:15; reads in test.stl:15\n")
+      << "VW30 is read on both sides, and INT 1 is not attached";
+  EXPECT_EQ(shared_text(inspected(kSharing, {"VW20"})), "the main program and interrupt routines share no memory\n");
+  const auto json = shared_json(inspected(kSharing, {"INT_0"}));
+  ASSERT_EQ(json.size(), 1U);
+  EXPECT_EQ(json[0]["address"], "VW10");
+  EXPECT_EQ(json[0]["sides"][1]["routine"], "INT_0");
+  EXPECT_EQ(json[0]["sides"][1]["writes"][0]["line"], 15);
 }
 
 }  // namespace

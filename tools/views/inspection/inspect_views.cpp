@@ -9,6 +9,7 @@
 #include "tools/views/inspection/map_view.hpp"
 #include "tools/views/inspection/overview_view.hpp"
 #include "tools/views/inspection/races_view.hpp"
+#include "tools/views/inspection/shared_view.hpp"
 #include "tools/views/inspection/steps_view.hpp"
 #include "tools/views/inspection/xref_view.hpp"
 #include "tools/views/ladder/ladder_view.hpp"
@@ -29,6 +30,8 @@ std::span<const InspectView> inspect_views() {
                   steps_json},
       InspectView{"races", "words that the main program and an interrupt share and do not access in one instruction", true,
                   races_text, races_json, nullptr, not_followed_json},
+      InspectView{"shared", "memory that the main program and interrupt routines both use: who reads it and who writes it",
+                  true, shared_text, shared_json},
       InspectView{"bounds", "how long a scan, a routine and the wait for an interrupt can take at most", false, bounds_text,
                   bounds_json},
       InspectView{"ladder", "the networks as ladder: contacts, coils and boxes; also as SVG", true, ladder_text, ladder_json,
