@@ -93,6 +93,77 @@ TEST(Effect, AccumulatorsAndPointersHandOn) {
   EXPECT_TRUE(has(text, ": MOVW AC0, *VD30 in line 5\n")) << text;
 }
 
+constexpr std::string_view kCountsEdges = "LD I0.0\nEU\nINCW VW0\nLD SM0.0\n";
+
+/// The effects of I0.0 in a program that counts its edges in VW0, and hands that on.
+std::string effects_of_an_edge(std::string_view hands_on) {
+  AtPrompt session(for_effects(std::string(kCountsEdges) + std::string(hands_on)));
+  session("continue 100ms; input I0.0=1; continue 100ms");
+  return session("effect I0.0") + session("effect VW0");
+}
+
+TEST(Effect, AWordThatIsWrittenTwiceInAScanHandsOnWhatItHadInBetween) {
+  for (const std::string_view between : {"AC0", "VW30", "LW2", "QW2"}) {
+    const std::string word(between);
+    const std::string text = effects_of_an_edge("MOVW VW0, " + word + "\n+I 3, " + word + "\nMOVW " + word +
+                                                ", VW20\nLDW>= VW20, 4\n= Q0.0\nMEND\n");
+    EXPECT_TRUE(has(text, "VW20 is 16#0004 (4), not 16#0003 (3), from 10")) << text;
+    EXPECT_TRUE(has(text, ": MOVW " + word + ", VW20 in line 7\n")) << text;
+    EXPECT_TRUE(has(text, "Q0.0 is 1, not 0, from 10")) << text;
+    EXPECT_FALSE(has(text, "only because scans take other times")) << text;
+    EXPECT_FALSE(has(text, "nothing came of it")) << text;
+  }
+}
+
+TEST(Effect, WhatAnAccumulatorHadIsToldOfEachOfItsInstructions) {
+  const std::string text = effects_of_an_edge("MOVW VW0, AC0\n+I 3, AC0\nMOVW AC0, VW20\nMEND\n");
+  EXPECT_TRUE(has(text, "AC0 is 16#0001 (1), not 16#0000 (0), from 10")) << text;
+  EXPECT_TRUE(has(text, " on: MOVW VW0, AC0 in line 5\n")) << text;
+  EXPECT_TRUE(has(text, "AC0 is 16#0004 (4), not 16#0003 (3), from 10")) << text;
+  EXPECT_TRUE(has(text, " on: +I 3, AC0 in line 6\n")) << text;
+}
+
+TEST(Effect, AWordHasWhatTheLastOfItsInstructionsHasWrittenInAScan) {
+  const std::string text = effects_of_an_edge("MOVW VW0, VW30\n+I 3, VW30\nMOVW VW30, VW40\nMEND\n");
+  EXPECT_TRUE(has(text, "VW30 is 16#0004 (4), not 16#0003 (3), from 10")) << text;
+  EXPECT_TRUE(has(text, " on: +I 3, VW30 in line 6, after MOVW VW0, VW30 in line 5\n")) << text;
+}
+
+TEST(Effect, AnAccumulatorThatIsWrittenAnewHandsOnNothingOfWhatItHadBefore) {
+  const std::string text =
+      effects_of_an_edge("MOVW VW0, AC0\nMOVW AC0, VW20\nMOVW VW50, AC0\n+I 1, AC0\nMOVW AC0, VW52\nINCW VW50\nMEND\n");
+  EXPECT_TRUE(has(text, "VW20 is 16#0001 (1), not 16#0000 (0), from 10")) << text;
+  EXPECT_FALSE(has(text, "VW52 is")) << text;
+}
+
+constexpr std::string_view kAddsThree =
+    "SUBROUTINE_BLOCK ramp:SBR0\nVAR_INPUT\ncount : INT;\nEND_VAR\nVAR_OUTPUT\nres : INT;\nEND_VAR\n"
+    "VAR\ntmp : INT;\nEND_VAR\nBEGIN\nNETWORK 1\nLD SM0.0\nMOVW #count, #tmp\n+I 3, #tmp\nMOVW #tmp, #res\n"
+    "END_SUBROUTINE_BLOCK\nORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD I0.0\nEU\nINCW VW0\n"
+    "NETWORK 2\nLD SM0.0\nCALL ramp, VW0, VW20\nEND_ORGANIZATION_BLOCK\n";
+
+TEST(Effect, AParameterThatASubroutineCountsWithComesBackOtherwise) {
+  AtPrompt session(for_effects(kAddsThree));
+  session("continue 100ms; input I0.0=1; continue 100ms");
+  for (const std::string_view asked : {"effect I0.0", "effect VW0"}) {
+    const std::string text = session(asked);
+    EXPECT_TRUE(has(text, "VW20 is 16#0004 (4), not 16#0003 (3), from 10")) << text;
+    EXPECT_FALSE(has(text, "only because scans take other times")) << text;
+  }
+}
+
+TEST(Effect, ACallThatIsMadeIsExecutedWhicheverOfTheRunsComesToItFirst) {
+  AtPrompt session(
+      for_effects("LD I0.0\nTON T37, 5\nLD T37\nEU\nS M0.0, 1\nLD M0.0\nCALL 1\nMEND\nSBR 1\nLD SM0.0\n"
+                  "INCW VW200\nRET\n"));
+  session("continue 100ms; input I0.0=1; continue 1s");
+  for (const std::string_view asked : {"effect T37", "effect M0.0", "effect I0.0"}) {
+    const std::string text = session(asked);
+    EXPECT_TRUE(has(text, "CALL 1 in line 7 is executed, from 6")) << text;
+    EXPECT_FALSE(has(text, "is not executed")) << text;
+  }
+}
+
 TEST(Effect, APointerThatPointsElsewhereIsAboveWhatIsWrittenThere) {
   AtPrompt session(for_effects("LD SM0.1\nMOVD &VB100, VD30\nLD SM0.0\nMOVB 9, *VD30\nMEND\n"));
   session("continue 20ms; set VD30=&VB200; continue 100ms");

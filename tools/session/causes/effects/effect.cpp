@@ -50,7 +50,7 @@ std::string who_changed(const History& history, const Program& program, const Ch
 std::optional<Time> next_change(const RunRecord& run, const Bits& place) {
   std::set<Time> turns;
   for (std::uint64_t bit = place.first; bit < place.end(); ++bit)
-    if (const auto found = run.series.find(bit); found != run.series.end())
+    if (const auto found = run.memory.find(bit); found != run.memory.end())
       for (const Turn& turn : found->second) turns.insert(turn.at);
   if (turns.size() < 2) return {};
   return *std::next(turns.begin());
@@ -180,7 +180,8 @@ void add_lines(const std::vector<Effect>& effects, std::size_t depth, std::vecto
 
 void add_open(const std::vector<Effect>& effects, std::vector<std::string>& names) {
   for (const Effect& effect : effects) {
-    if (!effect.until && !effect.name.empty()) names.push_back(effect.name);
+    if (!effect.until && !effect.name.empty() && std::ranges::find(names, effect.name) == names.end())
+      names.push_back(effect.name);
     add_open(effect.effects, names);
   }
 }

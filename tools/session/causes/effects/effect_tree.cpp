@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/model/errors.hpp"
@@ -29,6 +30,10 @@ bool is_in(const Bits& bits, std::uint32_t from, std::uint32_t to) { return bits
 bool hands_on(const Bits& bits) {
   return is_in(bits, image::kSM, image::kS) || is_in(bits, image::kAC, image::kTBits) ||
          is_in(bits, image::kInputs, image::kV) || is_in(bits, image::kL, image::kConstants);
+}
+
+void add_once(std::vector<std::size_t>& nodes, std::size_t node) {
+  if (std::ranges::find(nodes, node) == nodes.end()) nodes.push_back(node);
 }
 
 std::string text_of_characters(const std::vector<std::uint16_t>& characters) {
@@ -73,19 +78,33 @@ const Happening& EffectTree::happening_of(const RunDifference& difference) const
 }
 
 EffectTree::Subject EffectTree::subject_of(const RunDifference& difference, const Happening& happening) {
-  if (is_memory(difference.key)) return {0, happening.place.first, happening.place.count};
+  if (is_memory(difference.key)) {
+    const std::uint64_t writer = hands_on(happening.place) && happening.op ? *happening.op + 1 : 0;
+    return {0, happening.place.first, writer << 32 | happening.place.count};
+  }
   if (is_decision(difference.key)) return {1, *happening.op, 0};
   const bool characters = happening.kind == TraceKind::CharacterSent;
   return {2, std::uint64_t{static_cast<std::uint8_t>(happening.kind)} << 8 | happening.where,
           characters ? 0 : happening.what};
 }
 
+bool EffectTree::is_of_root(SeriesKey key) const {
+  if (!is_memory(key)) return false;
+  const auto& of_root = nodes_[kRoot].keys;  // between scans, where they are the bits themselves
+  return std::ranges::find(of_root, bit_of(key)) != of_root.end();
+}
+
+void EffectTree::note_end(const RunDifference& difference) {
+  const auto nodes = nodes_of_key_.find(difference.key);
+  if (nodes == nodes_of_key_.end()) return;
+  for (const std::size_t number : nodes->second) nodes_[number].last = std::max(nodes_[number].last, difference.at);
+}
+
 void EffectTree::add(const RunDifference& difference) {
+  if (!difference.opens) return note_end(difference);
   const Happening& happening = happening_of(difference);
-  const Subject subject = subject_of(difference, happening);
-  const auto& of_root = nodes_[kRoot].keys;
-  const bool is_root = std::ranges::find(of_root, difference.key) != of_root.end();
-  const auto [found, is_new] = node_of_.try_emplace(subject, is_root ? kRoot : nodes_.size());
+  const bool is_root = is_of_root(difference.key);
+  const auto [found, is_new] = node_of_.try_emplace(subject_of(difference, happening), is_root ? kRoot : nodes_.size());
   const std::size_t number = found->second;
   if (is_new && !is_root) {
     nodes_.push_back({.bits = is_memory(difference.key) ? happening.place : Bits{0, 0}});
@@ -95,11 +114,13 @@ void EffectTree::add(const RunDifference& difference) {
   node.last = std::max(node.last, difference.at);
   if (std::ranges::find(node.keys, difference.key) == node.keys.end()) {
     node.keys.push_back(difference.key);
-    if (is_memory(difference.key)) nodes_of_bit_[difference.key].push_back(number);
+    nodes_of_key_[difference.key].push_back(number);
+    if (is_memory(difference.key)) add_once(nodes_of_bit_[bit_of(difference.key)], number);
   }
   if (happening.kind == TraceKind::CharacterSent && difference.key >= kFirstRecord)
     (difference.in_first ? node.known : node.without).push_back(happening.what);
-  if (number == kRoot || node.parent) return;
+  if (number == kRoot) return;
+  if (node.parent) return settle(node, happening, difference);
   const auto parent = cause_of(happening, difference, number);
   if (!parent) return;
   std::string because = std::move(nodes_[number].effect.because);
@@ -108,18 +129,30 @@ void EffectTree::add(const RunDifference& difference) {
   nodes_[number].parent = parent;
 }
 
+/// A word that is written again in the same scan: what it has when the scan is over is what others see.
+void EffectTree::settle(Node& node, const Happening& happening, const RunDifference& difference) const {
+  const bool in_that_scan = difference.at <= node.effect.from + differences_.tolerance();
+  if (node.settled || hands_on(node.bits) || !in_that_scan || !is_memory(difference.key) ||
+      point_of(difference.key) != kBetweenScans)
+    return;
+  const Effect before = std::exchange(node.effect, {});
+  describe(node, happening, difference);
+  node.effect.from = before.from;
+  node.effect.because = before.because.empty() && before.op != node.effect.op ? before.place : before.because;
+}
+
 /// The latest of the occasion and of what was looked at, then the way that the program has taken, then the interrupt.
 std::optional<std::size_t> EffectTree::cause_of(const Happening& happening, const RunDifference& difference,
                                                 std::size_t self) {
   Look by;
-  const auto looked = looked_at(happening, difference.at, self, by);
+  const auto looked = looked_at(happening, difference, self, by);
   const auto occasion = occasion_of(happening);
   const bool by_occasion =
       occasion && *occasion != self && (!looked || nodes_[*occasion].effect.from >= nodes_[*looked].effect.from);
   if (by_occasion) return occasion;
   if (looked) {
-    const bool other = happening.op && by.op != *happening.op;
-    nodes_[self].effect.because = other ? place_of(by.op) : "";
+    const bool other = happening.op && by.op && *by.op != *happening.op;
+    nodes_[self].effect.because = other ? place_of(*by.op) : "";
     return looked;
   }
   if (happening.op)
@@ -128,22 +161,40 @@ std::optional<std::size_t> EffectTree::cause_of(const Happening& happening, cons
   return record_node(TraceKind::ServiceBegin, *happening.serving);
 }
 
-/// The latest of those that differ then. The status that an instruction leaves in special memory is not what led to it.
-std::optional<std::size_t> EffectTree::looked_at(const Happening& happening, Time at, std::size_t self, Look& by) const {
+/// The latest of those that differ where they were looked at.
+std::optional<std::size_t> EffectTree::looked_at(const Happening& happening, const RunDifference& difference,
+                                                 std::size_t self, Look& by) const {
   std::optional<std::size_t> found;
   for (const Look& look : happening.looks)
     for (std::uint64_t bit = look.bits.first; bit < look.bits.end(); ++bit) {
       const auto nodes = nodes_of_bit_.find(bit);
-      if (nodes == nodes_of_bit_.end() || !differences_.differ(bit, at)) continue;
+      if (nodes == nodes_of_bit_.end()) continue;
       for (const std::size_t node : nodes->second) {
         if (node == self || (node != kRoot && !nodes_[node].parent)) continue;
-        if (happening.op && nodes_[node].effect.op == happening.op && is_in({bit, 1}, image::kSM, image::kS)) continue;
         if (found && nodes_[*found].effect.from >= nodes_[node].effect.from) continue;
+        if (!hands_on_to(nodes_[node], look, bit, difference)) continue;
         found = node;
         by = look;
       }
     }
   return found;
+}
+
+/// Whether a bit differed where it was looked at, and had come from what the node is about.
+bool EffectTree::hands_on_to(const Node& node, const Look& look, std::uint64_t bit, const RunDifference& difference) const {
+  const RunRecord &run = difference.in_first ? known_ : without_, &other = difference.in_first ? without_ : known_;
+  const Point point = look.op ? in_front_of(*look.op) : kBetweenScans;
+  const SeriesKey key = memory_key(bit, point);
+  if (!look.op || !run.is_looked_at({bit, 1}, point)) return differences_.differ_somewhere(bit, difference.at);
+  if (!differences_.differ(key, difference.at)) return false;
+  if (!hands_on(node.bits) || !node.effect.op) return true;
+  for (const RunRecord* const each : {&run, &other}) {
+    const auto turns = each->series.find(key);
+    if (turns == each->series.end()) continue;
+    const auto after = std::ranges::upper_bound(turns->second, difference.at, {}, &Turn::at);
+    if (after != turns->second.begin()) return each->happenings[(after - 1)->happening].op == node.effect.op;
+  }
+  return true;
 }
 
 /// The latest decision of the routine before the instruction, or to call the routine, that is another one in both runs.
@@ -210,7 +261,7 @@ void EffectTree::describe(Node& node, const Happening& happening, const RunDiffe
   node.effect.from = difference.at;
   node.effect.op = happening.op;
   if (happening.op) node.effect.place = place_of(*happening.op);
-  if (is_memory(difference.key)) return describe_memory(node, happening, difference.at);
+  if (is_memory(difference.key)) return describe_memory(node, happening, difference);
   if (is_decision(difference.key)) return describe_way(node, happening, difference);
   const std::string_view instead = difference.in_first ? "" : ", not so here";
   switch (happening.kind) {
@@ -246,7 +297,8 @@ void EffectTree::describe(Node& node, const Happening& happening, const RunDiffe
 }
 
 /// Bits of timers and counters have the names of their values.
-void EffectTree::describe_memory(Node& node, const Happening& happening, Time at) const {
+void EffectTree::describe_memory(Node& node, const Happening& happening, const RunDifference& difference) const {
+  node.settled = point_of(difference.key) == kBetweenScans;
   const Bits& place = happening.place;
   const bool of_element = is_in(place, image::kTBits, image::kInputs);
   const Bits named_bits = as_named(place);
@@ -255,24 +307,45 @@ void EffectTree::describe_memory(Node& node, const Happening& happening, Time at
   effect.kind = "memory";
   effect.name = range && range->count == 1 ? named(program_, *range) : memory_text(place);
   if (of_element) effect.name = fmt::format("the bit of {}", effect.name);
-  const std::vector<std::uint8_t> value = known_.value(place, at), otherwise = without_.value(place, at);
-  if (range && place.count > 1) {
-    effect.value = value_text(program_, *range, value);
-    effect.otherwise = value_text(program_, *range, otherwise);
-  } else {
-    effect.value = fmt::format("{}", value.front());
-    effect.otherwise = fmt::format("{}", otherwise.front());
-  }
+  const auto text = [&](const std::vector<std::uint8_t>& bytes) {
+    return range && place.count > 1 ? value_text(program_, *range, bytes) : fmt::format("{}", bytes.front());
+  };
+  const RunRecord &run = difference.in_first ? known_ : without_, &other = difference.in_first ? without_ : known_;
+  const Point point = told_at(run, happening, difference);
+  const std::vector<std::uint8_t> own = run.value(place, point, difference.at);
+  const std::vector<std::uint8_t> beside = value_beside(other, place, point, difference.at, own);
+  effect.value = text(difference.in_first ? own : beside);
+  effect.otherwise = text(difference.in_first ? beside : own);
   effect.text = fmt::format("{} is {}, not {}", effect.name, effect.value, effect.otherwise);
 }
 
-void EffectTree::describe_way(Node& node, const Happening& happening, const RunDifference& difference) const {
-  const auto turns = known_.series.find(difference.key);
-  bool value = false;
-  if (turns != known_.series.end()) {
-    const auto after = std::ranges::upper_bound(turns->second, difference.at, {}, &Turn::at);
-    value = after != turns->second.begin() && (after - 1)->value;
+/// Between scans, or behind the instruction that has written it. What only hands on may be written again before the scan is
+/// over.
+Point EffectTree::told_at(const RunRecord& run, const Happening& happening, const RunDifference& difference) const {
+  const bool passing = hands_on(happening.place) || point_of(difference.key) != kBetweenScans;
+  const bool behind_it = passing && happening.op && run.is_looked_at(happening.place, behind(*happening.op));
+  return behind_it ? behind(*happening.op) : kBetweenScans;
+}
+
+/// What the run has there that has not turned: that comes to the point a little later may give it its new value only then.
+std::vector<std::uint8_t> EffectTree::value_beside(const RunRecord& run, const Bits& place, Point point, Time at,
+                                                   const std::vector<std::uint8_t>& other) const {
+  std::optional<Time> next;
+  for (std::uint64_t bit = place.first; bit < place.end(); ++bit) {
+    const auto turns = run.series.find(memory_key(bit, point));
+    if (turns == run.series.end()) continue;
+    const auto after = std::ranges::upper_bound(turns->second, at, {}, &Turn::at);
+    if (after != turns->second.end() && after->at <= at + differences_.tolerance() / 2)
+      next = std::min(next.value_or(kNever), after->at);
   }
+  if (next)
+    if (auto later = run.value(place, point, *next); later != other) return later;
+  return run.value(place, point, at);
+}
+
+/// The run without the change has the opposite of what the other one has.
+void EffectTree::describe_way(Node& node, const Happening& happening, const RunDifference& difference) const {
+  const bool value = difference.value == difference.in_first;
   node.effect.kind = "way";
   node.effect.text = fmt::format("{} {}", node.effect.place, way_text(*program_.ops[*happening.op].instruction, value));
   node.effect.place.clear();

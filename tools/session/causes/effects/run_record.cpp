@@ -9,13 +9,15 @@
 #include "interpreter/base/text/among.hpp"
 #include "interpreter/model/special_memory.hpp"
 #include "tools/session/causes/effects/changed_place.hpp"
+#include "tools/session/causes/effects/point_samples.hpp"
 #include "tools/session/past/actions/access.hpp"
 
 namespace s7200::tools {
 namespace {
 
 constexpr std::uint32_t kCompared = image::kConstants / 8 * 8;
-constexpr std::uint64_t kEdgeEvents = 8;  // of I0.0 to I0.3
+constexpr std::uint64_t kEdgeEvents = 8;          // of I0.0 to I0.3
+constexpr std::uint64_t kMostAtAPoint = 512 * 8;  // bits of a place that are looked at
 
 /// Memory that says nothing of what the program does: the clock bits and scan times of the CPU, the memory of edges, and the
 /// points, which follow their images.
@@ -61,12 +63,30 @@ bool decides(const Instruction& instruction) {
   }
 }
 
+/// What an instruction leaves in special memory of its result is not what it works with.
+bool is_status(const MemoryAccess& access) {
+  return access.operand == kNoOperand && access.writes() && access.bits.first / 8 >= image::kSM &&
+         access.bits.end() <= std::uint64_t{image::kS} * 8;
+}
+
 /// All that an instruction would read now: entries of tables, strings and messages too.
 std::vector<Bits> reads_now(const Cpu& cpu, std::uint32_t op) {
   std::vector<Bits> reads = accessed(cpu, op, Access::Read);
   for (const MemoryAccess& each : effects_now(cpu.program(), op, cpu.state().image))
-    if (each.reads()) reads.push_back(each.bits);
+    if (each.reads() && !is_status(each)) reads.push_back(each.bits);
   return reads;
+}
+
+/// All that an instruction would write now, but not so large an area that it may be anything.
+std::vector<Bits> writes_now(const Cpu& cpu, std::uint32_t op) {
+  std::vector<Bits> writes = accessed(cpu, op, Access::Write);
+  for (const MemoryAccess& each : effects_now(cpu.program(), op, cpu.state().image))
+    if (each.writes() && each.bits.count <= kMostAtAPoint) writes.push_back(each.bits);
+  return writes;
+}
+
+bool has_count(const Op& op) {
+  return std::ranges::any_of(op.instruction->rules(), [](const OperandRule& rule) { return rule.count; });
 }
 
 /// Whether the system goes on storing what comes of it.
@@ -80,13 +100,17 @@ SeriesKey record_key(TraceKind kind, std::uint8_t where, std::uint16_t what) {
   return kFirstRecord + (std::uint64_t{static_cast<std::uint8_t>(kind)} << 24 | std::uint64_t{where} << 16 | what);
 }
 
-std::vector<std::uint8_t> RunRecord::value(const Bits& place, Time at) const {
+namespace {
+
+/// `turns_of` gives those of a bit; null if there is none.
+template <typename TurnsOf>
+std::vector<std::uint8_t> value_after(const std::vector<std::uint8_t>& image, const Bits& place, Time at,
+                                      const TurnsOf& turns_of) {
   std::vector<std::uint8_t> bytes;
   const auto is_on = [&](std::uint64_t bit) {
-    const auto turns = series.find(bit);
-    if (turns != series.end()) {
-      const auto after = std::ranges::upper_bound(turns->second, at, {}, &Turn::at);
-      if (after != turns->second.begin()) return (after - 1)->value;
+    if (const std::vector<Turn>* const turns = turns_of(bit)) {
+      const auto after = std::ranges::upper_bound(*turns, at, {}, &Turn::at);
+      if (after != turns->begin()) return (after - 1)->value;
     }
     return (image[bit / 8] >> (bit % 8) & 1) != 0;
   };
@@ -98,6 +122,33 @@ std::vector<std::uint8_t> RunRecord::value(const Bits& place, Time at) const {
   return bytes;
 }
 
+}  // namespace
+
+std::vector<std::uint8_t> RunRecord::value(const Bits& place, Time at) const {
+  return value_after(image, place, at, [&](std::uint64_t bit) -> const std::vector<Turn>* {
+    const auto turns = memory.find(bit);
+    return turns == memory.end() ? nullptr : &turns->second;
+  });
+}
+
+std::vector<std::uint8_t> RunRecord::value(const Bits& place, Point point, Time at) const {
+  return value_after(image, place, at, [&](std::uint64_t bit) -> const std::vector<Turn>* {
+    const auto turns = series.find(memory_key(bit, point));
+    return turns == series.end() ? nullptr : &turns->second;
+  });
+}
+
+bool RunRecord::is_looked_at(const Bits& place, Point point) const {
+  if (point == kBetweenScans) return true;
+  return std::ranges::any_of(places[point], [&](const Bits& each) { return each.contains(place); });
+}
+
+bool RunRecord::passes_about(std::uint32_t op, Time at, Time about) const {
+  const auto after = std::ranges::lower_bound(passes[op], at, {}, &Passes::last);
+  if (after != passes[op].end() && after->first <= at + about) return true;
+  return after != passes[op].begin() && (after - 1)->last + about >= at;
+}
+
 SeriesRecorder::SeriesRecorder(History& history, std::size_t station, std::optional<Hold> hold, StopToken stop_request)
     : Reader(station, stop_request),
       cpu_(history.station(station).cpu()),
@@ -105,7 +156,16 @@ SeriesRecorder::SeriesRecorder(History& history, std::size_t station, std::optio
       run_{.image = {cpu_.state().image.begin(), cpu_.state().image.begin() + image::kConstants}},
       seen_(run_.image),
       reads_(cpu_.program().ops.size()),
-      decided_(cpu_.program().ops.size()) {}
+      writes_(cpu_.program().ops.size()),
+      direct_reads_(cpu_.program().ops.size()),
+      passed_in_(cpu_.program().ops.size()),
+      decided_(cpu_.program().ops.size()) {
+  run_.places.resize(behind(static_cast<std::uint32_t>(cpu_.program().ops.size())));
+  run_.passes.resize(cpu_.program().ops.size());
+  samples_ = std::make_unique<PointSamples>(run_);
+}
+
+SeriesRecorder::~SeriesRecorder() = default;
 
 void SeriesRecorder::ignore_edges() {
   State& state = cpu_.core().s;
@@ -126,11 +186,35 @@ bool SeriesRecorder::is_stop(std::uint32_t op) const {
 }
 
 std::vector<Bits> SeriesRecorder::reads_of(std::uint32_t op) {
-  const auto rules = cpu_.program().ops[op].instruction->rules();
-  const bool counts = std::ranges::any_of(rules, [](const OperandRule& rule) { return rule.count; });
-  if (cpu_.program().ops[op].has_pointer || counts) return reads_now(cpu_, op);
+  if (cpu_.program().ops[op].has_pointer || has_count(cpu_.program().ops[op])) return reads_now(cpu_, op);
   if (!reads_[op]) reads_[op] = reads_now(cpu_, op);
   return *reads_[op];
+}
+
+const std::vector<Bits>& SeriesRecorder::writes_of(std::uint32_t op) {
+  if (!writes_[op] || has_count(cpu_.program().ops[op])) writes_[op] = writes_now(cpu_, op);
+  return *writes_[op];
+}
+
+/// What it reads whatever pointers and counts have: another run reads the same there.
+const std::vector<Bits>& SeriesRecorder::direct_reads_of(std::uint32_t op) {
+  if (direct_reads_[op]) return *direct_reads_[op];
+  direct_reads_[op].emplace();
+  if (has_count(cpu_.program().ops[op])) return *direct_reads_[op];
+  for (const MemoryAccess& each : effects_now(cpu_.program(), op, cpu_.state().image))
+    if (each.reads() && !each.by_pointer && !is_status(each) && each.bits.count <= kMostAtAPoint)
+      direct_reads_[op]->push_back(each.bits);
+  return *direct_reads_[op];
+}
+
+void SeriesRecorder::note_pass(std::uint32_t op) {
+  std::vector<Passes>& passes = run_.passes[op];
+  const Time now = cpu_.time();
+  if (!passes.empty() && passed_in_[op] + 1 >= scans_)
+    passes.back().last = now;
+  else
+    passes.push_back({now, now});
+  passed_in_[op] = scans_;
 }
 
 void SeriesRecorder::put(const Bits& place, const std::vector<std::uint8_t>& value) {
@@ -179,12 +263,13 @@ bool SeriesRecorder::before(std::uint32_t op) {
   const Op& next = cpu_.program().ops[op];
   read_now_.clear();
   written_now_.clear();
-  const bool known_only_now =
-      next.has_pointer || next.instruction->structure == Structure::Call || returns_from_subroutine(next);
-  if (known_only_now) {
+  known_only_now_ = next.has_pointer || next.instruction->structure == Structure::Call || returns_from_subroutine(next);
+  if (known_only_now_) {
     read_now_ = reads_now(cpu_, op);
     written_now_ = accessed(cpu_, op, Access::Write);
   }
+  note_pass(op);
+  samples_->look(in_front_of(op), returns_from_subroutine(next) ? read_now_ : direct_reads_of(op), seen_, cpu_.time());
   return true;
 }
 
@@ -207,6 +292,9 @@ void SeriesRecorder::instruction(const InstructionRecord& record) {
     return;
   }
   note_changes(record.op, record.at);
+  const std::vector<Bits>& written = known_only_now_ ? written_now_ : writes_of(record.op);
+  if (record.powered) note_written(record, written);
+  samples_->look(behind(record.op), written, seen_, cpu_.time());
   if (decides(instruction)) note_decision(record);
   if (record.powered && lets_the_system_store(instruction)) note_store(record.op);
   const auto rules = instruction.rules();
@@ -246,13 +334,13 @@ std::optional<std::uint32_t> SeriesRecorder::stored_by(const Bits& place) const 
 /// point has; a message is stored because of its RCV.
 std::vector<Look> SeriesRecorder::looks_of_system(const Bits& place) const {
   const auto byte = static_cast<std::uint32_t>(place.first / 8);
-  if (byte < image::kQ) return {{0, {place.first + std::uint64_t{image::kInputs - image::kI} * 8, place.count}}};
+  if (byte < image::kQ) return {{{}, {place.first + std::uint64_t{image::kInputs - image::kI} * 8, place.count}}};
   if (const auto by = stored_by(place)) return stores_.at(*by).looks;
   if (!is_timer(byte)) return {};
   const std::uint32_t number = timer_of(place.first);
   const auto executed = timers_.find(number);
   std::vector<Look> looks = executed == timers_.end() ? std::vector<Look>{} : executed->second;
-  if (byte >= image::kTBits) looks.push_back({0, {std::uint64_t{image::kT + 2 * number} * 8, 16}});
+  if (byte >= image::kTBits) looks.push_back({{}, {std::uint64_t{image::kT + 2 * number} * 8, 16}});
   return looks;
 }
 
@@ -302,8 +390,25 @@ void SeriesRecorder::note_changes(std::optional<std::uint32_t> op, Time at) {
     happening.looks = op ? looks_of(*op) : looks_of_system(place);
     if (!op) happening.op = stored_by(place);
     for (const std::uint64_t bit : changed)
-      if (place.contains({bit, 1}))
-        run_.series[bit].push_back({at, run_.happenings.size(), (now[bit / 8] >> (bit % 8) & 1) != 0});
+      if (place.contains({bit, 1})) {
+        run_.memory[bit].push_back({at, run_.happenings.size(), (now[bit / 8] >> (bit % 8) & 1) != 0});
+        samples_->changed(bit, run_.happenings.size());
+      }
+    run_.happenings.push_back(std::move(happening));
+  }
+}
+
+/// What it writes comes of it, even the bits that had been so before.
+void SeriesRecorder::note_written(const InstructionRecord& record, const std::vector<Bits>& places) {
+  constexpr std::uint64_t kMostOfAnOperand = 32;
+  for (const Bits& place : places) {
+    if (place.count > kMostOfAnOperand || is_left_out(static_cast<std::uint32_t>(place.first / 8)) ||
+        !samples_->is_new(behind(record.op), place, seen_))
+      continue;
+    Happening happening = happening_of(record.op, record.at);
+    happening.place = place;
+    happening.looks = looks_of(record.op);
+    for (std::uint64_t bit = place.first; bit < place.end(); ++bit) samples_->changed(bit, run_.happenings.size());
     run_.happenings.push_back(std::move(happening));
   }
 }
@@ -327,6 +432,8 @@ void SeriesRecorder::record(const TraceRecord& record) {
     case TraceKind::ScanBegin:
       if (scan_ != 0) run_.longest_scan = std::max(run_.longest_scan, record.at - scan_);
       scan_ = record.at;
+      ++scans_;
+      samples_->look_between_scans(seen_, record.at);
       rungs_[0] = {};
       return;
     case TraceKind::CharacterSent:
@@ -362,6 +469,7 @@ void SeriesRecorder::record(const TraceRecord& record) {
       }
       break;
     case TraceKind::ModeChange:
+      samples_->look_between_scans(seen_, record.at);
       happening.what = record.code;
       if (const std::uint32_t op = cpu_.core().loop.op; is_stop(op)) {
         happening.op = op;
