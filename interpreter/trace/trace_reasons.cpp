@@ -9,6 +9,7 @@
 #include "interpreter/program/ladder/networks.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/interrupt_enabling.hpp"
+#include "interpreter/trace/rung_contacts.hpp"
 #include "interpreter/trace/text/instruction_lines.hpp"
 #include "interpreter/trace/text/statement_text.hpp"
 
@@ -232,7 +233,7 @@ std::string TraceReasons::held_up_by(const TraceRecord& begin) const {
 
 std::string TraceReasons::contacts_text(const std::vector<InstructionRecord>& contacts) const {
   std::string text;
-  for (const InstructionRecord& contact : contacts) {
+  for (const InstructionRecord& contact : contacts_of_top(program_, contacts)) {
     const std::string values = values_text(contact, program_);
     text += fmt::format("{}{}{}{}", text.empty() ? "" : "; ", short_text(program_.statement(contact.op)),
                         values.empty() ? "" : ":", values);

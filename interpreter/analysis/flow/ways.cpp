@@ -134,7 +134,8 @@ std::vector<Conditions> Ways::of_gate(const NetworkLogic& logic, std::size_t num
     case Gate::Kind::Contact: {
       const NetworkLogic::Contact& contact = logic.contacts[gate.a];
       if (!contact.statement) return kAlways;  // what is in front of the rung is not known
-      return {Conditions{{op_of(contact), on != contact.normally_closed}}};
+      const auto in_rung = static_cast<std::uint32_t>(gate.statement - facts_.program.statements.data());
+      return {Conditions{{op_of(contact), on != contact.normally_closed, in_rung, on != gate.normally_closed}}};
     }
     case Gate::Kind::Not:
       return of_gate(logic, gate.a, !on);

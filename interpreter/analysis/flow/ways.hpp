@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <tuple>
 #include <vector>
 
 #include "interpreter/analysis/effects/facts.hpp"
@@ -17,11 +18,14 @@
 namespace s7200 {
 
 /// A contact that lets power through or does not; an LSCR whose S bit is on or off; an INT
-/// that runs.
+/// that runs. Of contacts of a network that look at the same it is the first, so that they do not contradict each other.
 struct Condition {
   std::uint32_t op = 0;
   bool on = false;
-  auto operator<=>(const Condition&) const = default;
+  std::uint32_t in_rung = op;  ///< the contact that is in the rung, and what that one lets through
+  bool in_rung_on = on;
+  auto operator<=>(const Condition& other) const { return std::tie(op, on) <=> std::tie(other.op, other.on); }
+  bool operator==(const Condition& other) const { return op == other.op && on == other.on; }
 };
 
 /// Sorted, each op once.

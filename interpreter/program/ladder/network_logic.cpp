@@ -75,7 +75,7 @@ class LogicReader {
 
  private:
   std::size_t gate(Gate::Kind kind, std::size_t a = 0, std::size_t b = 0) {
-    logic_.gates.push_back({kind, a, b});
+    logic_.gates.push_back({.kind = kind, .a = a, .b = b});
     return logic_.gates.size() - 1;
   }
   bool is_true(std::size_t index) const { return logic_.gates[index].kind == Gate::Kind::True; }
@@ -90,7 +90,8 @@ class LogicReader {
   std::size_t contact(std::string name, bool normally_closed, const stl::Statement* statement = nullptr) {
     const auto [known, added] = known_.try_emplace(std::move(name), logic_.contacts.size());
     if (added) logic_.contacts.push_back({known->first, normally_closed, statement});
-    return gate(Gate::Kind::Contact, known->second);
+    logic_.gates.push_back({Gate::Kind::Contact, known->second, 0, normally_closed, statement});
+    return logic_.gates.size() - 1;
   }
 
   std::size_t pop() {

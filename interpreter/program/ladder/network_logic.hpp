@@ -25,7 +25,9 @@ struct NetworkLogic {
   /// A gate of the circuit that the logic stack holds. Operands come before the gates that use them.
   struct Gate {
     enum class Kind : std::uint8_t { True, Contact, Not, And, Or } kind = Kind::True;
-    std::size_t a = 0, b = 0;  ///< indices of contacts or gates
+    std::size_t a = 0, b = 0;                   ///< indices of contacts or gates
+    bool normally_closed = false;               ///< of a contact, as it is used here
+    const stl::Statement* statement = nullptr;  ///< the same: of several that read the same bit this one
   };
   /// An output, or an edge, which remembers its input.
   struct Action {

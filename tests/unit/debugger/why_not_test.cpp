@@ -53,6 +53,31 @@ TEST(WhyNot, AnInputThatTwoContactsLookAtChangesOnce) {
   EXPECT_TRUE(has(text, "  1 contact has to change:\n    I0.1 is 0 ")) << text;
 }
 
+TEST(WhyNot, OfContactsThatLookAtTheSameTheOneInTheRungIsNamed) {
+  AtPrompt session(
+      on_cpu224("LD I0.0\n= Q0.0\nLDN I0.0\n= Q0.1\nLD I0.0\nA I0.1\n= Q0.2\nLDW>= VW0, 5\n= Q0.3\n"
+                "LDW< VW0, 5\nA I0.1\n= Q0.4\nMEND\n"));
+  session("input I0.0=1; scan 3");
+  EXPECT_TRUE(has(session("why not Q0.1"), ", must be 0 (LDN I0.0 in line 3): an input\n"));
+  session("input I0.0=0 I0.1=1; set VW0=7; scan 3");
+  EXPECT_TRUE(has(session("why not Q0.2"), ", must be 1 (LD I0.0 in line 5): an input\n"));
+  const std::string compared = session("why not Q0.4");
+  EXPECT_TRUE(has(compared, "VW0=7 < 5 must hold (LDW< VW0, 5 in line 10)\n")) << compared;
+}
+
+TEST(WhyNot, AContactBehindLrdOrLppIsNamedAndNotTheOneOfTheBranchBefore) {
+  AtPrompt session(on_cpu224("LD I0.4\nLPS\nA I0.5\n= Q0.4\nLRD\nAN I0.5\n= Q0.5\nLPP\nA I0.5\nA I0.6\n= Q0.6\nMEND\n"));
+  session("input I0.4=1 I0.5=1; scan 3");
+  EXPECT_TRUE(has(session("why not Q0.5"), ", must be 0 (AN I0.5 in line 6): an input\n"));
+  session("input I0.5=0 I0.6=1; scan 3");
+  EXPECT_TRUE(has(session("why not Q0.6"), ", must be 1 (A I0.5 in line 9): an input\n"));
+}
+
+TEST(WhyNot, TwoContactsOfTheSameBitThatExcludeEachOtherAreNoWay) {
+  AtPrompt session(on_cpu224("LD I1.1\nAN I1.1\n= Q0.7\nMEND\n"));
+  EXPECT_TRUE(has(session("scan 3; why not Q0.7"), "  no contact can do that: it never has power flow there\n"));
+}
+
 TEST(WhyNot, TheFewestContactsThatWouldHaveToChangeComeFirst) {
   AtPrompt session(on_cpu224(kRungs));
   session("continue 20ms; input I0.2=1 I0.3=1; scan 3");

@@ -800,6 +800,14 @@ TEST(Why, AnOutputOfACallThatWasNotExecutedNamesTheCallThatCould) {
       << text;
 }
 
+TEST(Why, ContactsOfABranchThatWasLeftAreNotAmongThoseThatDecided) {
+  AtPrompt session("LD I0.4\nLPS\nA I0.5\n= Q0.4\nLRD\nAN I0.5\n= Q0.5\nLPP\nA I0.6\nLD I0.7\nO I1.0\nALD\n= Q0.6\nMEND\n");
+  session("input I0.4=1 I0.5=1; scan 3");
+  EXPECT_TRUE(has(session("why Q0.5"), "= Q0.5 in line 7 (LD I0.4: I0.4=1; AN I0.5: I0.5=1)\n"));
+  const std::string last = session("why Q0.6");
+  EXPECT_TRUE(has(last, "(LD I0.4: I0.4=1; A I0.6: I0.6=0; LD I0.7: I0.7=0; O I1.0: I1.0=0; ALD)\n")) << last;
+}
+
 TEST(Why, WhatIsAskedAboutAnAddressMayHaveBeenSetFromOutside) {
   AtPrompt session("LD SM0.0\nMEND\n");
   session("continue 20ms; set VW0=5; continue 1ms");

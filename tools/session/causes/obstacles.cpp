@@ -192,7 +192,9 @@ Obstacle Obstacles::of_input(std::uint32_t number, std::size_t level, bool on, s
   return input;
 }
 
-Obstacle Obstacles::of_condition(const Condition& condition) {
+/// Of contacts that look at the same the one in the rung is named.
+Obstacle Obstacles::of_condition(const Condition& found) {
+  const Condition condition{found.in_rung, found.in_rung_on};
   const Op& of = op(condition.op);
   const ContactForm form = contact_form(*of.instruction);
   if (form.compares()) return of_comparison(condition);

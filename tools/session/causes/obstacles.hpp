@@ -48,7 +48,7 @@ class Obstacles {
   Obstacle value_followed(const Bits& bits);
   std::optional<Obstacle> told_before(const Bits& bits, bool wanted) const;
   void note_told(const Bits& bits, bool wanted, Obstacle& obstacle);
-  Obstacle of_condition(const Condition& condition);
+  Obstacle of_condition(const Condition& found);
   Obstacle of_contact(const Condition& condition);
   Obstacle of_comparison(const Condition& condition);
   Obstacle of_edge(std::uint32_t op);
