@@ -78,6 +78,20 @@ TEST(WhyNot, TwoContactsOfTheSameBitThatExcludeEachOtherAreNoWay) {
   EXPECT_TRUE(has(session("scan 3; why not Q0.7"), "  no contact can do that: it never has power flow there\n"));
 }
 
+TEST(WhyNot, OfACompoundConditionOnlyWhatIsNotAsItHasToBeIsAsked) {
+  AtPrompt session(on_cpu224("LD I0.0\n= Q0.0\nLD I0.1\n= Q0.1\nLD I0.2\nEU\nINCW VW10\nMEND\n"));
+  session("scan 3");
+  const std::string high = session("why not VW10 > 9 and not Q0.0");
+  EXPECT_TRUE(has(high, "VW10 is 16#0000 (0)")) << high;
+  EXPECT_FALSE(has(high, "must be")) << high;
+  session("input I0.0=1; scan 3");
+  EXPECT_TRUE(has(session("why not VW10 = 0 and not Q0.0"), ", must be 0\n  "));
+  const std::string both = session("why not not (Q0.0 or Q0.1)");
+  EXPECT_TRUE(has(both, "Q0.0 is 1 ")) << both;
+  EXPECT_FALSE(has(both, "Q0.1 is 0 since")) << both;
+  EXPECT_TRUE(has(session("until VW10 = 0 and not Q0.0 within 10ms"), ", must be 0\n"));
+}
+
 TEST(WhyNot, TheFewestContactsThatWouldHaveToChangeComeFirst) {
   AtPrompt session(on_cpu224(kRungs));
   session("continue 20ms; input I0.2=1 I0.3=1; scan 3");

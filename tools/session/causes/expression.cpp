@@ -385,6 +385,25 @@ void collect_places(const Node& node, std::vector<const Node*>& places) {
     if (side) collect_places(*side, places);
 }
 
+bool is_logic(const Node& node) {
+  return node.kind == Node::Kind::Not || (node.kind == Node::Kind::Binary && (node.op == "and" || node.op == "or"));
+}
+
+/// What cannot be computed now is against it too.
+void collect_against(const Node& node, bool wanted, const Cpu& cpu, std::vector<const Node*>& places) {
+  if (const auto value = evaluate(node, cpu); value && value->truth() == wanted) return;
+  if (!is_logic(node)) return collect_places(node, places);
+  const bool wanted_inside = (node.kind == Node::Kind::Not) != wanted;
+  for (const Node* const side : {node.left.get(), node.right.get()})
+    if (side) collect_against(*side, wanted_inside, cpu, places);
+}
+
+std::vector<Place> places_of(const std::vector<const Node*>& nodes) {
+  std::vector<Place> places;
+  for (const Node* const node : nodes) places.push_back(node->place);
+  return places;
+}
+
 }  // namespace
 
 Result<Expression> Expression::parse(std::string_view text, const Program& program) {
@@ -401,9 +420,13 @@ Result<Value> Expression::value(const Cpu& cpu) const { return evaluate(*root_, 
 std::vector<Place> Expression::places() const {
   std::vector<const Node*> nodes;
   collect_places(*root_, nodes);
-  std::vector<Place> places;
-  for (const Node* const node : nodes) places.push_back(node->place);
-  return places;
+  return places_of(nodes);
+}
+
+std::vector<Place> Expression::places_against(bool wanted, const Cpu& cpu) const {
+  std::vector<const Node*> nodes;
+  collect_against(*root_, wanted, cpu, nodes);
+  return places_of(nodes);
 }
 
 std::string Expression::places_text(const Cpu& cpu) const {

@@ -69,7 +69,7 @@ Obstacle tree_of(const Wish& wish, Obstacles& obstacles, const Cpu& cpu) {
   Obstacle answer{.kind = "condition",
                   .text = fmt::format("{} {}: {}", stl::printable(wish.text), holds ? "holds" : "does not hold",
                                       wish.condition->places_text(cpu))};
-  for (const Place& place : wish.condition->places()) {
+  for (const Place& place : wish.condition->places_against(!holds, cpu)) {
     const auto range = range_now(place, cpu);
     if (!range) continue;
     const auto bit = range->width == Width::Bit ? bit_of(*range) : std::nullopt;
