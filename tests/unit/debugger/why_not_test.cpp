@@ -92,6 +92,19 @@ TEST(WhyNot, OfACompoundConditionOnlyWhatIsNotAsItHasToBeIsAsked) {
   EXPECT_TRUE(has(session("until VW10 = 0 and not Q0.0 within 10ms"), ", must be 0\n"));
 }
 
+TEST(WhyNot, WhatIsForcedSaysHowToReleaseItAndNamesNoInstructionThatCannotChangeIt) {
+  AtPrompt session(on_cpu224("LD I0.0\nMOVW 5, VW10\n= Q0.0\n= M0.3\nMEND\n"));
+  session("force VW10=3; force MB0=0; force Q0.0=0; force VB20=1; scan 3");
+  for (const std::string_view asked : {"why not VW10 > 4", "why not Q0.0", "why not M0.3", "why not V11.2"}) {
+    const std::string text = session(asked);
+    EXPECT_TRUE(has(text, ": it is forced")) << text;
+    EXPECT_TRUE(has(text, "' releases it\n")) << text;
+    EXPECT_FALSE(has(text, "in line")) << text;
+  }
+  EXPECT_TRUE(has(session("why not V11.2"), ": it is forced with VW10; 'unforce VW10' releases it\n"));
+  EXPECT_TRUE(has(session("why not VW20 = 7"), ": VB20 is forced; 'unforce VB20' releases it\n"));
+}
+
 TEST(WhyNot, TheFewestContactsThatWouldHaveToChangeComeFirst) {
   AtPrompt session(on_cpu224(kRungs));
   session("continue 20ms; input I0.2=1 I0.3=1; scan 3");

@@ -808,6 +808,14 @@ TEST(Why, ContactsOfABranchThatWasLeftAreNotAmongThoseThatDecided) {
   EXPECT_TRUE(has(last, "(LD I0.4: I0.4=1; A I0.6: I0.6=0; LD I0.7: I0.7=0; O I1.0: I1.0=0; ALD)\n")) << last;
 }
 
+TEST(Why, AForcedContactIsSaidToBeSo) {
+  AtPrompt session("LD I0.0\nAN M0.1\n= Q0.0\nMEND\n");
+  session("force I0.0=1; scan 3");
+  EXPECT_TRUE(has(session("why Q0.0"), "(LD I0.0: I0.0=1; AN M0.1: M0.1=0); I0.0 was forced\n"));
+  session("unforce all; scan 3");
+  EXPECT_FALSE(has(session("why Q0.0"), "forced"));
+}
+
 TEST(Why, WhatIsAskedAboutAnAddressMayHaveBeenSetFromOutside) {
   AtPrompt session("LD SM0.0\nMEND\n");
   session("continue 20ms; set VW0=5; continue 1ms");

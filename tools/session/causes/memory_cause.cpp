@@ -8,7 +8,9 @@
 #include <map>
 
 #include "interpreter/analysis/effects/effects.hpp"
+#include "interpreter/cpu/units/forcing.hpp"
 #include "interpreter/model/contact_form.hpp"
+#include "interpreter/trace/rung_contacts.hpp"
 #include "interpreter/trace/text/statement_text.hpp"
 #include "interpreter/trace/trace_reasons.hpp"
 #include "tools/session/causes/expression.hpp"
@@ -109,7 +111,7 @@ class MemoryInquiry {
     const std::string contacts = rung_in_front_of(write);
     if (range.area == Area::L && program().ops[write.by->op].instruction->structure == Structure::Call)
       next_ = parameters_for(write.by->op, range, false);
-    return fmt::format("{}{}", by, contacts.empty() ? "" : fmt::format(" ({})", contacts));
+    return fmt::format("{}{}{}", by, contacts.empty() ? "" : fmt::format(" ({})", contacts), forced_);
   }
 
   /// The local memory behind memory of the caller that a CALL gets back, or the other way round; only bits.
@@ -136,13 +138,30 @@ class MemoryInquiry {
 
   /// The contacts that decided an instruction; the history stands in front of it then.
   std::string rung_in_front_of(const LastWrite& write) {
+    forced_.clear();
     history_.go_to(write.moment);
     RungReader reader(program(), station_, stop_request_);
     if (history_.go_to(here().cpu().state().scan_begin)) history_.play(reader, write.moment);
     history_.go_to(write.moment);
     const auto cause = reader.reasons.cause();
-    if (cause && cause->contacts) next_ = decisive(cause->looked_at, write);
+    if (cause && cause->contacts) {
+      next_ = decisive(cause->looked_at, write);
+      forced_ = forced_text(contacts_of_top(program(), cause->looked_at));
+    }
     return reader.reasons.contacts();
+  }
+
+  /// `; I0.0 was forced` of what contacts looked at, where the history stands.
+  std::string forced_text(const std::vector<InstructionRecord>& contacts) const {
+    std::vector<std::string> names;
+    for (const InstructionRecord& contact : contacts)
+      for (const Bits& bits : accessed(here().cpu(), contact.op, Access::Read))
+        for (const Assignment& forced : forcing::listed(here().cpu().state().forcing)) {
+          const std::string name = forced.place.name_of(0);
+          if (bits_of(forced.place).overlaps(bits) && std::ranges::find(names, name) == names.end()) names.push_back(name);
+        }
+    if (names.empty()) return {};
+    return fmt::format("; {} {} forced", fmt::join(names, " and "), names.size() == 1 ? "was" : "were");
   }
 
   /// The bits of the contacts that decided a rung: of contacts in series without power those that have none, of those in
@@ -268,6 +287,7 @@ class MemoryInquiry {
   StopToken stop_request_;
   bool interrupted_ = false;
   std::vector<MemoryRange> next_{};
+  std::string forced_{};  // of the last rung
 };
 
 /// A bit that decided another, and when.

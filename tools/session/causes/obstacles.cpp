@@ -14,6 +14,7 @@
 #include "interpreter/trace/text/statement_text.hpp"
 #include "tools/session/causes/expression.hpp"
 #include "tools/session/causes/memory_cause.hpp"
+#include "tools/session/causes/writer.hpp"
 #include "tools/session/past/actions/access.hpp"
 #include "tools/views/state/machine_text.hpp"
 #include "tools/views/state/memory_meaning.hpp"
@@ -147,14 +148,11 @@ Obstacles::Writers Obstacles::writers_of(const Bits& bits, bool wanted, std::opt
 
 // --- what is in the way ---
 
-void Obstacles::add_forced(Obstacle& obstacle, const Bits& bit) const {
-  const auto is_forced = [&](const ForcedPoints& points, std::uint32_t base) {
-    const std::uint64_t byte = bit.first / 8 - base;
-    return bit.first / 8 >= base && byte < image::kPointBytes && (points.mask[byte] >> (bit.first % 8) & 1) != 0;
-  };
-  if (!is_forced(cpu_.state().forcing.inputs, image::kI) && !is_forced(cpu_.state().forcing.outputs, image::kQ)) return;
-  obstacle.text +=
-      fmt::format("{}it is forced; 'unforce {}' releases it", obstacle.text.empty() ? "" : "; ", memory_text(bit));
+/// Whether no instruction can change any of it.
+bool Obstacles::add_forced(Obstacle& obstacle, const Bits& bits) const {
+  const ForcedPlace forced = forced_place(cpu_.state().forcing, bits);
+  if (!forced.text.empty()) obstacle.text += fmt::format("{}{}", obstacle.text.empty() ? "" : "; ", forced.text);
+  return forced.all;
 }
 
 void Obstacles::add_ways(Obstacle& to, const std::vector<Conditions>& ways) {
@@ -179,7 +177,8 @@ void Obstacles::add_ways(Obstacle& to, const std::vector<Conditions>& ways) {
       if (std::ranges::none_of(way.because, is_same)) way.because.push_back(std::move(one));
     }
     const std::size_t count = way.because.size();  // an input that two contacts look at changes once
-    way.text = fmt::format("{}{} {} to change:", i == 0 ? "" : "or ", counted(count, "contact"), count == 1 ? "has" : "have");
+    way.text =
+        fmt::format("{}{} {} to change:", i == 0 ? "" : "or ", counted(count, "contact"), count == 1 ? "has" : "have");
     to.because.push_back(std::move(way));
   }
   if (fewest.size() > shown)
@@ -346,7 +345,7 @@ Obstacle Obstacles::followed(const Bits& bit, bool wanted) {
 
 Obstacle Obstacles::of_memory(const Bits& bit, bool wanted, std::optional<std::uint32_t> routine) {
   Obstacle found = about("bit", bit, wanted);
-  add_forced(found, bit);
+  if (add_forced(found, bit)) return found;
   const std::pair<Bits, bool> own{bit, wanted};
   if (std::ranges::find(open_, own) != open_.end()) {
     found.text = "it would have to hold itself; see above";
@@ -510,6 +509,7 @@ Obstacle Obstacles::value_followed(const Bits& bits) {
     if (bits.count <= 32 && area != Area::L && area != Area::AC) found.bits = bits;
   }
   found.text = area == Area::T || area == Area::C ? "" : meaning_text(*program().model, bits);
+  if (add_forced(found, bits)) return found;
   if (area == Area::I || area == Area::AI || area == Area::HC) return found;
   const Writers writers = writers_of(bits, true, {});
   std::vector<std::uint32_t> all = writers.deciding;

@@ -60,7 +60,7 @@ class Obstacles {
   Obstacle of_call(std::uint32_t call, const Bits& bit, bool wanted);
   Obstacle of_input(std::uint32_t op, std::size_t level, bool on, std::string text);
 
-  void add_forced(Obstacle& obstacle, const Bits& bit) const;
+  bool add_forced(Obstacle& obstacle, const Bits& bits) const;
   Writers writers_of(const Bits& bits, bool wanted, std::optional<std::uint32_t> routine) const;
   void note_writer(std::uint32_t op, const Bits& bits, bool wanted, Writers& writers) const;
   void add_ways(Obstacle& to, const std::vector<Conditions>& ways);

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/cpu/units/forcing.hpp"
 #include "interpreter/trace/text/statement_text.hpp"
 #include "interpreter/trace/text/text_trace.hpp"
 #include "tools/session/causes/last/last_attachment.hpp"
 #include "tools/session/causes/last/last_write.hpp"
+#include "tools/session/past/actions/access.hpp"
 #include "tools/session/past/past_words.hpp"
 #include "tools/views/program/execution_text.hpp"
 #include "tools/views/state/machine_text.hpp"
@@ -35,6 +39,24 @@ std::string data_text(const Program& program, const MemoryRange& range) {
 }
 
 }  // namespace
+
+/// A wider value of which it is a part is named, and each part of it that is forced alone.
+ForcedPlace forced_place(const Forcing& forcing, const Bits& bits) {
+  ForcedPlace found;
+  std::uint64_t count = 0;
+  for (const Assignment& forced : forcing::listed(forcing)) {
+    const Bits place = bits_of(forced.place);
+    if (!place.overlaps(bits)) continue;
+    const std::string name = forced.place.name_of(0);
+    const std::string what = place == bits          ? "it is forced"
+                             : place.contains(bits) ? fmt::format("it is forced with {}", name)
+                                                    : fmt::format("{} is forced", name);
+    found.text += fmt::format("{}{}; 'unforce {}' releases it", found.text.empty() ? "" : "; ", what, name);
+    count += std::min(place.end(), bits.end()) - std::max(place.first, bits.first);
+  }
+  found.all = count >= bits.count;
+  return found;
+}
 
 std::string asked_by_text(const History& history, const Asker& asker, const std::string& plc) {
   switch (asker.kind) {

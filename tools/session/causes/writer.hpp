@@ -7,7 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/analysis/effects/bits.hpp"
 #include "interpreter/base/stop_token.hpp"
+#include "interpreter/cpu/state.hpp"
 #include "tools/session/past/history.hpp"
 #include "tools/views/program/listing.hpp"
 
@@ -32,6 +34,12 @@ std::string changer_text(const History& history, std::optional<std::size_t> acti
 /// `asked by pump`: a master that polls, one on a bridge, or the PLC that is called `plc`; without a name it is the only
 /// one. Empty if there is nothing to tell it from others: that of `send`, one on the only bridge.
 std::string asked_by_text(const History& history, const Asker& asker, const std::string& plc);
+
+struct ForcedPlace {
+  bool all = false;    ///< no instruction changes any of it
+  std::string text{};  ///< `it is forced; 'unforce VW10' releases it`; empty if none of it is
+};
+ForcedPlace forced_place(const Forcing& forcing, const Bits& bits);
 
 /// Of memory of a station, which is called `name`; or of an event. The simulation stands where it stood.
 WriterSearch find_writer(History& history, std::size_t station, const Listing& listing, const MemoryRange& range,
