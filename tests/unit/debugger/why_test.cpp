@@ -566,7 +566,8 @@ TEST(Why, CharactersAreLostWhereTheirRoutineTakesLongerThanACharacter) {
   for (int i = 0; i < 60; ++i) many += " 41";
   session("continue 50ms; break lost; send" + many + "; continue");
   const std::string why = session("why");
-  EXPECT_TRUE(has(why, "1 was lost because the interrupt queue was full; until then a character came every 286.458 us, and INT 1 took "))
+  EXPECT_TRUE(has(
+      why, "1 was lost because the interrupt queue was full; until then a character came every 286.458 us, and INT 1 took "))
       << why;
 }
 
@@ -796,8 +797,7 @@ TEST(Why, AnOutputOfACallThatWasNotExecutedNamesTheCallThatCould) {
   AtPrompt session(with_blocks(test::changed(std::string(kWithParameters), "LD SM0.0\n", "LD I0.6\n")));
   session("continue 50ms");
   const std::string text = session("why M0.0");
-  EXPECT_TRUE(has(text, "nothing has written it since power-up; CALL 0, I0.0, M0.0 in line 5 could, which had no "))
-      << text;
+  EXPECT_TRUE(has(text, "nothing has written it since power-up; CALL 0, I0.0, M0.0 in line 5 could, which had no ")) << text;
 }
 
 TEST(Why, ContactsOfABranchThatWasLeftAreNotAmongThoseThatDecided) {
@@ -814,6 +814,63 @@ TEST(Why, AForcedContactIsSaidToBeSo) {
   EXPECT_TRUE(has(session("why Q0.0"), "(LD I0.0: I0.0=1; AN M0.1: M0.1=0); I0.0 was forced\n"));
   session("unforce all; scan 3");
   EXPECT_FALSE(has(session("why Q0.0"), "forced"));
+}
+
+constexpr std::string_view kKeepsAway =
+    "LD I0.0\n"   // 1
+    "JMP 1\n"     // 2
+    "LD I0.1\n"   // 3
+    "= Q0.0\n"    // 4
+    "LBL 1\n"     // 5
+    "LD I0.2\n"   // 6
+    "END\n"       // 7
+    "LD I0.3\n"   // 8
+    "CALL 1\n"    // 9
+    "MEND\n"      // 10
+    "SBR 1\n"     // 11
+    "LD I0.4\n"   // 12
+    "CALL 2\n"    // 13
+    "RET\n"       // 14
+    "SBR 2\n"     // 15
+    "LD I0.5\n"   // 16
+    "CRET\n"      // 17
+    "LD SM0.0\n"  // 18
+    "= Q0.1\n"    // 19
+    "RET\n"       // 20
+    "INT 3\n"     // 21
+    "LD SM0.0\n"  // 22
+    "= Q0.2\n"    // 23
+    "RETI\n";     // 24
+
+TEST(Why, WhatKeepsTheWriterOfAnAddressAwayIsNamed) {
+  AtPrompt session(kKeepsAway);
+  session("input I0.0=1 I0.1=1; scan 3");
+  EXPECT_TRUE(
+      has(session("why Q0.0"), "= Q0.0 in line 4 could, which was not executed lately: JMP 1 in line 2 jumped over it at "));
+  EXPECT_TRUE(has(session("why Q0.0"), " (LD I0.0: I0.0=1)\n"));
+  EXPECT_TRUE(has(session("why Q0.1"),
+                  "not executed lately: CALL 2 in line 13 was not executed lately: CALL 1 in line 9 had no power flow at "));
+  EXPECT_TRUE(has(session("why Q0.2"), "= Q0.2 in line 23 could, which was not executed lately: INT 3 did not run\n"));
+  session("input I0.3=1 I0.4=1 I0.5=1; scan 3");
+  EXPECT_TRUE(has(session("why Q0.1"), ": CRET in line 17 ended the routine in front of it at "));
+  session("input I0.2=1; scan 3");
+  EXPECT_TRUE(has(session("why Q0.1"), ": CRET in line 17 ended the routine in front of it at "));
+}
+
+TEST(Why, AnEndInFrontOfACallIsNamedThoughItHadNoPowerBefore) {
+  AtPrompt session(kKeepsAway);
+  session("scan 3; input I0.2=1; scan 3");
+  const std::string text = session("why Q0.1");
+  EXPECT_TRUE(has(text, "CALL 1 in line 9 was not executed after ")) << text;
+  EXPECT_TRUE(has(text, ": END in line 7 ended the scan in front of it at ")) << text;
+}
+
+TEST(Why, TheEndOfAMainProgramThatStandsBehindASubroutineEndsTheScan) {
+  AtPrompt session(with_blocks("SUBROUTINE_BLOCK sub:SBR0\nBEGIN\nNETWORK 1\nLD I0.2\n= Q0.1\nEND_SUBROUTINE_BLOCK\n"
+                               "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.0\nCALL sub\nLD I0.3\nEND\n"
+                               "NETWORK 2\nLD SM0.0\n= Q0.0\nEND_ORGANIZATION_BLOCK\n"));
+  session("input I0.3=1; scan 3");
+  EXPECT_TRUE(has(session("why Q0.0"), ": END in line 13 ended the scan in front of it at "));
 }
 
 TEST(Why, WhatIsAskedAboutAnAddressMayHaveBeenSetFromOutside) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 
 #include "interpreter/analysis/effects/effects.hpp"
 #include "interpreter/cpu/units/forcing.hpp"
@@ -16,10 +15,10 @@
 #include "tools/session/causes/expression.hpp"
 #include "tools/session/causes/last/last_turn.hpp"
 #include "tools/session/causes/last/last_write.hpp"
+#include "tools/session/causes/last/passed_over.hpp"
 #include "tools/session/causes/writer.hpp"
 #include "tools/session/past/actions/access.hpp"
 #include "tools/session/past/past_words.hpp"
-#include "tools/session/past/reader.hpp"
 #include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
@@ -28,26 +27,6 @@ namespace {
 constexpr std::size_t kMostSteps = 8;    // back from a bit to what decided it
 constexpr std::size_t kMostWriters = 3;  // that are named of memory that nobody has written
 constexpr Time kLookedAt = kSecond;      // whether they were executed
-
-/// Where the rungs of a program come to while a part of the past is played.
-class RungReader final : public Reader {
- public:
-  RungReader(const Program& program, std::size_t station, StopToken stop_request)
-      : Reader(station, stop_request), reasons(program) {}
-
-  void record(const TraceRecord& record) override { reasons.note(record); }
-  void instruction(const InstructionRecord& record) override {
-    if (!record.powered) passed_over[record.op] = {record.at, reasons.contacts()};
-    reasons.note(record);
-  }
-
-  struct PassedOver {
-    Time at = 0;
-    std::string contacts{};
-  };
-  std::map<std::uint32_t, PassedOver> passed_over{};  ///< by op, the last time that it had no power flow
-  TraceReasons reasons;
-};
 
 bool is_same_bit(const MemoryRange& a, const MemoryRange& b) {
   return a.width == Width::Bit && b.width == Width::Bit && a.at == b.at && a.bit == b.bit;
@@ -179,9 +158,7 @@ class MemoryInquiry {
     return bits;
   }
 
-  static bool is_bit_contact(const Op& op) {
-    return contact_form(*op.instruction).kind == ContactForm::Kind::Bit;
-  }
+  static bool is_bit_contact(const Op& op) { return contact_form(*op.instruction).kind == ContactForm::Kind::Bit; }
 
   /// A part of a rung: whether it has power, and the contacts that are the reason.
   struct Branch {
@@ -274,12 +251,7 @@ class MemoryInquiry {
   }
 
   std::string could_text(std::uint32_t op, const RungReader& reader) const {
-    const std::string name = named_without_comment(op, program());
-    const auto passed = reader.passed_over.find(op);
-    if (passed == reader.passed_over.end()) return fmt::format("{} could, which was not executed lately", name);
-    const auto& [at, contacts] = passed->second;
-    return fmt::format("{} could, which had no power flow at {}{}", name, moment_text(at),
-                       contacts.empty() ? "" : fmt::format(" ({})", contacts));
+    return fmt::format("{} could, which {}", named_without_comment(op, program()), reader.what_kept(op));
   }
 
   History& history_;

@@ -9,6 +9,7 @@
 #include "interpreter/model/errors.hpp"
 #include "interpreter/trace/text/statement_text.hpp"
 #include "tools/session/causes/expression.hpp"
+#include "tools/session/causes/last/passed_over.hpp"
 #include "tools/session/causes/memory_cause.hpp"
 #include "tools/views/state/machine_text.hpp"
 
@@ -58,12 +59,7 @@ std::string_view way_text(const Instruction& instruction, bool value) {
 
 EffectTree::EffectTree(const Program& program, const RunRecord& known, const RunRecord& without,
                        const RunDifferences& differences, const std::vector<Bits>& changed)
-    : program_(program), known_(known), without_(without), differences_(differences) {
-  std::uint32_t routine = 0;
-  for (std::uint32_t op = 0; op < program.ops.size(); ++op) {
-    if (begins_routine(program.ops[op].instruction->structure)) routine = op;
-    routine_.push_back(routine);
-  }
+    : program_(program), known_(known), without_(without), differences_(differences), routine_(routine_heads(program)) {
   nodes_.push_back({.bits = changed.front()});
   for (const Bits& place : changed)
     for (std::uint64_t bit = place.first; bit < place.end(); ++bit) {
