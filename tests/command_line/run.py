@@ -2848,6 +2848,13 @@ class Inspect(Case):
         self.assertIn("M0.0=1 and I0.0=0", shown)
         self.assertIn("1 contact has to change:", shown)
 
+    def test_why_takes_the_bit_of_a_timer_from_its_value_and_preset(self):
+        path = self.program("LD I0.0\nTON T37, VW10\nLD I0.1\nTOF T38, 20\nLD T37\n= Q0.0\nMEND\n")
+        preset = ["--set", "I0.0=1", "--set", "VW10=20"]
+        self.assertIn("T37 is 1: ", self.ends(FINE, "why", path, "T37", *preset, "--set", "T37=27").stdout)
+        self.assertIn("T37 is 0: in 500 ms (1.5 s of 2 s have passed)", self.ends(FINE, "why", path, "T37", *preset, "--set", "T37=15").stdout)
+        self.assertEqual(self.ends(FINE, "why", path, "T37", "not", *preset, "--set", "T37=20").stdout, "T37 holds now\n")
+
     def test_why_says_what_it_cannot_answer(self):
         self.assertIn("an address is missing", self.ends(UNUSABLE, "why", *self.PUMP).stderr)
         self.assertIn("'XX' is not an address", self.ends(UNUSABLE, "why", *self.PUMP, "XX").stderr)

@@ -29,17 +29,31 @@ void put(State& state, const Assignment& assignment) {
 }
 
 /// CTD is on at 0, all others from their preset on; whether a TOF is on its value does not say, so it is taken for off.
-void put_bits_of_timers_and_counters(State& state, const Cpu& cpu) {
+void put_bit_of_timer_or_counter(State& state, const Cpu& cpu, const Op& op) {
+  const Instruction& instruction = *op.instruction;
+  const bool timer = instruction.operand[0].areas == set_of(Area::T);
+  const std::uint32_t number = op[2].at, at = (timer ? image::kT : image::kC) + 2 * number;
+  const auto value = static_cast<std::int16_t>(state.image[at] << 8 | state.image[at + 1]);
+  const auto preset = static_cast<std::int16_t>(cpu.peek(op, 1).value_or(0));
+  set_bit(state, (timer ? image::kTBits : image::kCBits) + number / 8, static_cast<std::uint8_t>(number % 8),
+          instruction.mnemonic == "CTD" ? value == 0 : value >= preset);
+}
+
+/// Of all of them, or of those that `assigned` gives a value or a preset.
+void put_bits_of_timers_and_counters(Cpu& cpu, const std::vector<Assignment>* assigned) {
+  const auto state = std::make_unique<State>(cpu.state());
   for (const Op& op : cpu.program().ops) {
     const Instruction& instruction = *op.instruction;
     if (instruction.hidden != Hidden::Number || instruction.mnemonic == "TOF") continue;
     const bool timer = instruction.operand[0].areas == set_of(Area::T);
-    const std::uint32_t number = op[2].at, at = (timer ? image::kT : image::kC) + 2 * number;
-    const auto value = static_cast<std::int16_t>(state.image[at] << 8 | state.image[at + 1]);
-    const auto preset = static_cast<std::int16_t>(cpu.peek(op, 1).value_or(0));
-    set_bit(state, (timer ? image::kTBits : image::kCBits) + number / 8, static_cast<std::uint8_t>(number % 8),
-            instruction.mnemonic == "CTD" ? value == 0 : value >= preset);
+    const std::uint32_t value = (timer ? image::kT : image::kC) + 2 * op[2].at;
+    const auto is_of_it = [&](const Assignment& each) {
+      const std::uint32_t end = each.place.at + bytes_of(each.place.width);
+      return (each.place.at < value + 2 && value < end) || (each.place.at < op[1].at + 2 && op[1].at < end);
+    };
+    if (!assigned || std::ranges::any_of(*assigned, is_of_it)) put_bit_of_timer_or_counter(*state, cpu, op);
   }
+  cpu.restore(*state);
 }
 
 void put_picture(Cpu& cpu, const RetentiveMemory& memory, const std::vector<Assignment>& assigned) {
@@ -48,8 +62,7 @@ void put_picture(Cpu& cpu, const RetentiveMemory& memory, const std::vector<Assi
     std::copy_n(memory.image.begin() + range.at(), range.bytes(), state->image.begin() + range.at());
   for (const Assignment& each : assigned) put(*state, each);
   cpu.restore(*state);  // presets may be in V memory
-  put_bits_of_timers_and_counters(*state, cpu);
-  cpu.restore(*state);
+  put_bits_of_timers_and_counters(cpu, nullptr);
 }
 
 /// What a first scan makes of memory that was set, as programs that initialise themselves do, is no part of the picture.
@@ -57,6 +70,7 @@ void keep_assigned(Cpu& cpu, const std::vector<Assignment>& assigned) {
   const auto state = std::make_unique<State>(cpu.state());
   for (const Assignment& each : assigned) put(*state, each);
   cpu.restore(*state);
+  put_bits_of_timers_and_counters(cpu, &assigned);
 }
 
 void run_first_scan(serial::Simulation& simulation) {
