@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/stl/block_words.hpp"
 #include "interpreter/stl/tables/symbol_table.hpp"
 #include "interpreter/stl/text/plain_line.hpp"
 
@@ -32,6 +33,33 @@ bool is_title_of_table(std::string_view line) {
          std::ranges::any_of(kWords, [&](std::string_view word) { return text.find(word) != text.npos; });
 }
 
+/// `TITLE=Filling, line 2`
+bool is_title(const std::vector<std::string>& words) {
+  return words[0].starts_with("TITLE=") || (words.size() > 1 && words[0] == "TITLE" && words[1].starts_with('='));
+}
+
+/// The lines between the head of a block of an export and its end: titles, declarations and code.
+std::vector<bool> within_blocks(const std::vector<std::string>& lines) {
+  const auto is_keyword = [](std::string_view word) {
+    return word == "DATA_BLOCK" ||
+           std::ranges::find(stl::kBlockWords, word, &stl::BlockWords::keyword) != stl::kBlockWords.end();
+  };
+  std::vector<bool> within(lines.size(), false);
+  std::optional<std::size_t> head;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].find('_') == std::string::npos) continue;
+    const std::vector<std::string> words = words_of_code(lines[i]);
+    if (words.empty()) continue;
+    const std::string_view word = words.front();
+    if (is_keyword(word)) head = i;
+    if (head && word.starts_with("END_") && is_keyword(word.substr(4))) {
+      std::fill(within.begin() + static_cast<std::ptrdiff_t>(*head), within.begin() + static_cast<std::ptrdiff_t>(i), true);
+      head.reset();
+    }
+  }
+  return within;
+}
+
 class TableFinder {
  public:
   TableFinder(std::string_view text, const IsInstruction& is_instruction)
@@ -39,7 +67,12 @@ class TableFinder {
         is_instruction_(is_instruction),
         in_table_(lines_.size(), false),
         above_table_(lines_.size(), false) {
-    for (const std::string& line : lines_) read_.push_back(read(line));
+    const std::vector<bool> within = within_blocks(lines_);
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      read_.push_back(read(lines_[i]));
+      const bool in_table = read_.back().kind == LineKind::Head || read_.back().kind == LineKind::Row;
+      if (within[i] && in_table) read_.back() = {};
+    }
   }
 
   std::optional<ProgramWithTable> run() {
@@ -75,6 +108,7 @@ class TableFinder {
     const bool is_address = row.value && !std::holds_alternative<stl::Integer>(*row.value);
     if (!is_address && line.find('=') == line.npos) return {};  // `In network 1`
     std::string name = stl::upper_case(row.name);
+    if (is_title(words) && name != "TITLE") return {};
     // A mnemonic with operands, so that the address may be one of them: `LD: I0.0`, `LD I0.0 I0.1`, but not `STOP I0.0`.
     return stl::is_mnemonic(is_instruction_, name, 1) ? ReadLine{} : ReadLine{LineKind::Row, std::move(name)};
   }

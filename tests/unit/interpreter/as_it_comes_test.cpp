@@ -290,6 +290,24 @@ TEST(AsItComes, ATitleBeforeTheHeadOfItsBlockIsItsTitle) {
   EXPECT_EQ(source.parsed.source.blocks[0].title, "A lamp");
 }
 
+TEST(AsItComes, TheTitleOfABlockIsNoRowOfATableOfSymbols) {
+  const std::string main = "ORGANIZATION_BLOCK MAIN:OB1\n%BEGIN\nNetwork 1\nLD SM0.0\nCALL Line\nEND_ORGANIZATION_BLOCK\n";
+  const std::string line = "SUBROUTINE_BLOCK Line:SBR0\n%BEGIN\nNetwork 1\nLD I0.0\n= Q0.0\nEND_SUBROUTINE_BLOCK\n";
+  const auto with_title = [](std::string block, const std::string& title) {
+    return block.replace(block.find('%'), 1, title);
+  };
+  for (const char* title :
+       {"TITLE=Filling, line 2\n", "TITLE = Line 2\n", "TITLE=Line; M0.0\n", "TITLE=\nLine, 2: Q0.0\n"}) {
+    const SourceText source = read(with_title(main, title) + with_title(line, ""));
+    EXPECT_EQ(source.parsed.source.symbols.size(), 0U) << title;
+    EXPECT_EQ(source.parsed.source.blocks.size(), 2U) << title;
+  }
+  const SourceText before = read("TITLE=Filling, line 2\n" + with_title(main, "") + with_title(line, ""));
+  EXPECT_TRUE(before.parsed.diagnostics.empty());
+  const SourceText beside = read(with_title(main, "") + with_title(line, "") + "\nLine = SBR0\nTitle = VW2\nLamp = Q0.0\n");
+  EXPECT_EQ(beside.parsed.source.blocks.size(), 2U);
+}
+
 TEST(AsItComes, AProgramInAStringIsRead) {
   const std::string plain = program("LD I0.0\n= Q0.0\nMEND\n");
   for (const char* text : {
