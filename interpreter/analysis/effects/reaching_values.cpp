@@ -4,6 +4,7 @@
 #include <set>
 #include <span>
 #include <string_view>
+#include <tuple>
 
 #include "interpreter/analysis/cross_reference.hpp"
 #include "interpreter/analysis/effects/effects.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 constexpr int kNarrowings = 2;
 constexpr std::size_t kMostFollowed = 3'000'000;  ///< cells in front of blocks, about 1 GB: nothing is known of more
-constexpr int kPatience = 4;  ///< times that a value may grow where ways meet before it is widened
+constexpr int kPatience = 4;                      ///< times that a value may grow where ways meet before it is widened
 
 Structure structure_at(const Op& op) { return op.instruction->structure; }
 
@@ -128,7 +129,10 @@ class ValueFollower {
     std::vector<std::optional<ValueRange>> drift{};  ///< by cell: what a pass adds; nothing if that is not known
     bool reached = false;
     std::optional<std::int64_t> passes{};  ///< at most, as far as followed
+    bool surely_all = false;               ///< it makes no fewer
     ValueSet index{};                      ///< during the passes
+    /// By cell: what it holds after the last pass, if each pass surely adds the same.
+    std::vector<std::optional<ValueSet>> after{};
   };
 
   // --- loops ---
@@ -170,6 +174,28 @@ class ValueFollower {
     drift->most += std::max<std::int64_t>(added, 0);
   }
 
+  /// What each pass of a loop surely adds to a cell: all that writes it counts it, always has power flow, and nothing jumps.
+  std::optional<std::int64_t> sure_step_of(std::uint32_t loop, std::size_t cell) const {
+    std::int64_t step = 0;
+    for (std::uint32_t op = loop + 1; op + 1 < program_.ops[loop].target; ++op) {
+      const Structure structure = structure_at(program_.ops[op]);
+      if (structure == Structure::Label || structure == Structure::Jump || structure == Structure::SegmentExit) return {};
+      if (!writes(op, cell)) continue;
+      const auto repeated = repeats(loop, op);
+      if (!repeated || !flow_.nodes[op].powered || program_.ops[op].in_segment || !surely_repeats(loop, op)) return {};
+      step += step_of(program_, program_.ops[op]).value_or(0) * *repeated;
+    }
+    return step;
+  }
+
+  bool surely_repeats(std::uint32_t loop, std::uint32_t op) const {
+    return std::ranges::all_of(loops_, [&](const auto& each) {
+      const auto& [inner, about] = each;
+      const bool around = inner > loop && inner < op && op < program_.ops[inner].target;
+      return !around || (about.surely_all && flow_.nodes[inner].powered);
+    });
+  }
+
   /// How often an op is executed at most in a pass of a loop; nothing if a loop in it is not known.
   std::optional<std::int64_t> repeats(std::uint32_t loop, std::uint32_t op) const {
     std::int64_t all = 1;
@@ -187,10 +213,28 @@ class ValueFollower {
     if (structure_at(program_.ops[op]) == Structure::Call &&
         cells_.written_in(flow_.nodes[program_.ops[op].target].routine, cell) && !is_local_place(cells_[cell].at))
       return true;
+    if (const auto led = led_to_.find(op); led != led_to_.end() && led->second[cell]) return true;
     return std::ranges::any_of(effects_[op], [&](const MemoryAccess& access) {
       return access.writes() && !is_local_clearing(access) && access.bits.overlaps(cells_[cell].bits()) &&
-             (is_of_operand(access) || structure_at(program_.ops[op]) == Structure::Call);
+             !is_walked(op, access) && (is_of_operand(access) || structure_at(program_.ops[op]) == Structure::Call);
     });
+  }
+
+  /// What is written through a pointer is where it leads as far as followed, not wherever it may lead at any time: that may
+  /// be itself, and then nothing would bound it.
+  bool is_walked(std::uint32_t op, const MemoryAccess& access) const {
+    return access.by_pointer && access.operand != kNoOperand && structure_at(program_.ops[op]) == Structure::None;
+  }
+
+  /// Works the loops around an op out again if its pointers lead to more cells than before.
+  void note_led_to(std::uint32_t op, const Bits& bits) {
+    auto& led_to = led_to_.try_emplace(op, cells_.size()).first->second;
+    bool more = false;
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      if (bits.overlaps(cells_[i].bits()) && !led_to[i]) more = led_to[i] = true;
+    if (!more || phase_ != Phase::Growing) return;
+    for (const auto& [loop, about] : loops_)
+      if (loop < op && op < program_.ops[loop].target && about.reached) waiting_.insert(leader_of_[loop]);
   }
 
   // --- blocks ---
@@ -449,19 +493,20 @@ class ValueFollower {
       const bool surely_runs = !first.empty() && !last.empty() && first.most() <= last.least();
       if (!surely_runs) join(skipped, done);
       count_passes(op, loop, first, last);
-      const auto drift_before = loop.drift;
+      const auto before = std::pair(loop.drift, loop.after);
       if (loop.passes.value_or(1) > 0) arrive(op + 1, first_pass(op, loop, *state.on));
       const std::uint32_t next = leader_of_[now.target - 1];
-      if (phase_ == Phase::Growing && loop.drift != drift_before && reached_[next].reached()) waiting_.insert(next);
+      const bool more = before != std::pair(loop.drift, loop.after);
+      if (phase_ == Phase::Growing && more && reached_[next].reached()) waiting_.insert(next);
     }
     arrive(now.target, skipped);
   }
 
   void count_passes(std::uint32_t op, Loop& loop, const ValueSet& first, const ValueSet& last) {
-    const auto before = std::pair(loop.reached, loop.passes);
+    const auto before = std::tuple(loop.reached, loop.passes, loop.surely_all);
     count_passes(loop, first, last);
     loop.reached = true;
-    if (before == std::pair(loop.reached, loop.passes) || phase_ != Phase::Growing) return;
+    if (before == std::tuple(loop.reached, loop.passes, loop.surely_all) || phase_ != Phase::Growing) return;
     for (const auto& [outer, about] : loops_)
       if (outer < op && op < program_.ops[outer].target && about.reached) waiting_.insert(leader_of_[outer]);
   }
@@ -469,9 +514,11 @@ class ValueFollower {
   static void count_passes(Loop& loop, const ValueSet& first, const ValueSet& last) {
     if (first.empty() || last.empty() || !loop.counts || last.is_all_of(Width::Word)) {
       loop.passes.reset();
+      loop.surely_all = false;
       loop.index = ValueSet::all_of(Width::Word);
       return;
     }
+    loop.surely_all = first.single() && last.single();
     loop.passes = std::max<std::int64_t>(0, last.most() - first.least() + 1);
     loop.index = ValueSet(first.least(), std::max(first.least(), last.most()));
   }
@@ -480,6 +527,7 @@ class ValueFollower {
   Memory first_pass(std::uint32_t op, Loop& loop, const Memory& before) const {
     Memory inside = before;
     loop.drift = loop.passes ? drift_of(op) : std::vector<std::optional<ValueRange>>(cells_.size());
+    loop.after = after_all_passes(op, loop, before);
     for (std::size_t i = 0; loop.passes && i < cells_.size(); ++i) {
       if (!loop.drift[i]) continue;
       const std::int64_t more = *loop.passes - 1;
@@ -489,11 +537,23 @@ class ValueFollower {
     return inside;
   }
 
+  std::vector<std::optional<ValueSet>> after_all_passes(std::uint32_t op, const Loop& loop, const Memory& before) const {
+    std::vector<std::optional<ValueSet>> after(cells_.size());
+    for (std::size_t i = 0; loop.surely_all && i < cells_.size(); ++i) {
+      if (!loop.drift[i] || *loop.drift[i] == ValueRange{}) continue;
+      const auto step = sure_step_of(op, i);
+      if (step) after[i] = counted_on(before[i], {*step * *loop.passes, *step * *loop.passes}).fitted(cells_[i].width);
+    }
+    return after;
+  }
+
   void next_pass(std::uint32_t op, std::optional<Memory> memory) {
     const std::uint32_t begin = program_.ops[op].target - 1;
     Loop& loop = loops_[begin];
     if (!memory) return;
     Memory left = *memory;
+    for (std::size_t i = 0; i < loop.after.size(); ++i)
+      if (loop.after[i]) left[i] = *loop.after[i];
     set_index(left, begin, loop.index.plus({1, 1}).fitted(Width::Word));
     arrive(op + 1, left);
     set_index(*memory, begin, loop.index);
@@ -511,7 +571,7 @@ class ValueFollower {
 
   // --- boxes and contacts ---
 
-  void execute(std::uint32_t op, State& state) const {
+  void execute(std::uint32_t op, State& state) {
     const Op& now = program_.ops[op];
     if (now.is_contact) return contact(op, state);
     if (now.instruction->rung.stack.change != 0) state.on = state.off = joined(state);
@@ -519,7 +579,7 @@ class ValueFollower {
     if (state.off && !now.instruction->rung.needs_power_flow) write(op, *state.off);
   }
 
-  void write(std::uint32_t op, Memory& memory) const {
+  void write(std::uint32_t op, Memory& memory) {
     const Op& now = program_.ops[op];
     const auto box = value_box_of(*now.instruction);
     std::optional<ValueSet> result;
@@ -544,13 +604,15 @@ class ValueFollower {
     return op.instruction->mnemonic == "FILL" && constant_value(program_, op[0], Width::Word) == 0;
   }
 
-  void write_through(std::uint32_t op, std::uint8_t operand, Memory& memory) const {
+  void write_through(std::uint32_t op, std::uint8_t operand, Memory& memory) {
     const Op& now = program_.ops[op];
     const ValueSet address =
         value_of(op, Operand{.at = now[operand].at, .bit = 0, .pointer = false, .width = 4}, Width::Double, memory);
     for (const PointerTarget& target : places_of(program_, address)) {
       const std::uint64_t reach = reach_of(program_, now, operand, target.from);
-      overwrite(memory, {target.from * 8u, (target.to - 1 - target.from) * 8u + reach}, ValueSet::kNoCause);
+      const Bits written{target.from * 8u, (target.to - 1 - target.from) * 8u + reach};
+      overwrite(memory, written, ValueSet::kNoCause);
+      note_led_to(op, written);
     }
   }
 
@@ -659,13 +721,14 @@ class ValueFollower {
   FollowedCells cells_;
   ReachingValues& result_;
 
-  std::map<std::uint32_t, Loop> loops_{};       // by FOR
-  std::vector<bool> leads_{}, heads_{};         // by op: begins a block; may be reached from below
-  std::vector<std::uint32_t> leader_of_{};      // by op
-  std::vector<State> reached_{};                // by leader
-  std::vector<int> joins_{};                    // by leader
-  std::vector<std::optional<Memory>> exits_{};  // by routine
-  std::map<std::uint32_t, int> left_{};         // by routine
+  std::map<std::uint32_t, Loop> loops_{};                // by FOR
+  std::vector<bool> leads_{}, heads_{};                  // by op: begins a block; may be reached from below
+  std::vector<std::uint32_t> leader_of_{};               // by op
+  std::vector<State> reached_{};                         // by leader
+  std::vector<int> joins_{};                             // by leader
+  std::vector<std::optional<Memory>> exits_{};           // by routine
+  std::map<std::uint32_t, int> left_{};                  // by routine
+  std::map<std::uint32_t, std::vector<bool>> led_to_{};  // by op: the cells that its pointers lead to
   std::set<std::uint32_t> waiting_{};
   Phase phase_ = Phase::Growing;
   std::uint32_t walking_ = 0;                            // the leader
