@@ -87,7 +87,7 @@ class BoundsBuilder {
     if (saves_to_eeprom()) bounds_.scan += timed_.eeprom_save;
     for (const EventUse& use : calls_.events)
       if (!use.attached.empty()) bounds_.events.push_back(event(use));
-    for (Bounds::OfEvent& event : bounds_.events) event.latency = latency(event);
+    for (Bounds::OfEvent& event : bounds_.events) find_latency(event);
     bounds_.scan_with_interrupts = with_interrupts();
     for (std::size_t port = 0; port < timed_.model->ports; ++port)
       if (const auto found = answer(port)) bounds_.answers.push_back(*found);
@@ -211,7 +211,7 @@ class BoundsBuilder {
   }
 
   Bounds::OfEvent event(const EventUse& use) const {
-    Bounds::OfEvent of{use.number, period(use.number), 0, {}, {}};
+    Bounds::OfEvent of{.event = use.number, .period = period(use.number)};
     for (const Attachment& attachment : use.attached) {
       if (!attachment.routine) continue;
       const Bounds::OfRoutine& routine = bounds_.routines[*attachment.routine];
@@ -238,9 +238,10 @@ class BoundsBuilder {
 
   /// The longest other routine may just have begun; events that are served before come as often as they can meanwhile, and
   /// so may the event itself.
-  std::optional<Time> latency(const Bounds::OfEvent& event) {
+  void find_latency(Bounds::OfEvent& event) {
     const auto wait = longest_wait();
-    if (!wait) return {};
+    event.may_stay_disabled = !wait;
+    if (!wait) return;
     std::vector<const Bounds::OfEvent*> before;
     Time begun = 0;
     bool earlier = true;
@@ -252,11 +253,12 @@ class BoundsBuilder {
       else
         begun = std::max(begun, other.longest_routine);
     }
+    for (const Bounds::OfEvent* other : before)
+      if (!other->period || *other->period == 0) event.before.push_back(other->event);
     const Time alone = *wait + begun + timed_.interrupt_entry;
-    return settled(alone, [&](const Bounds::OfEvent& other, Time time) -> std::int64_t {
-      if (std::ranges::find(before, &other) == before.end()) return 0;
-      return time / *other.period + (&other == &event ? 0 : 1);
-    });
+    event.latency = settled(
+        alone, [&](const Bounds::OfEvent& other, Time time) { return time / *other.period + (&other == &event ? 0 : 1); },
+        [&](const Bounds::OfEvent& other) { return std::ranges::find(before, &other) != before.end(); });
   }
 
   std::optional<Time> with_interrupts() const {

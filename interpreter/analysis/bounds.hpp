@@ -40,10 +40,12 @@ struct Bounds {
   };
   struct OfEvent {
     std::uint8_t event = 0;
-    std::optional<Time> period;        ///< the shortest time from one such event to the next; nothing: it is not known
-    Time longest_routine = 0;          ///< of the routines attached to it, with the entry
-    std::optional<Time> latency;       ///< until its routine begins; nothing: there is no bound
-    std::vector<std::uint32_t> loops;  ///< without a bound, on which these depend
+    std::optional<Time> period{};        ///< the shortest time from one such event to the next; nothing: it is not known
+    Time longest_routine = 0;            ///< of the routines attached to it, with the entry
+    std::optional<Time> latency{};       ///< until its routine begins; nothing: there is no bound
+    bool may_stay_disabled = false;      ///< because of that: a DISI that no ENI surely follows in a known time
+    std::vector<std::uint8_t> before{};  ///< or because of these, which may be served before it and come any number of times
+    std::vector<std::uint32_t> loops{};  ///< without a bound, on which these depend
   };
 
   /// From the last character of a request at a port to the first of its answer. The one who asks waits for answers, so that

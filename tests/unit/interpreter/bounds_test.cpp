@@ -134,6 +134,19 @@ TEST(Bounds, LatencyIsTheLongestInstructionAndTheRoutinesThatAreServedBefore) {
   EXPECT_EQ(both.events[1].latency, 10 * us + 70 * us + 40 * us) << "a character is served before";
 }
 
+TEST(Bounds, AnEventWaitsWithoutBoundOnlyForEventsBeforeItOfWhichThePeriodIsNotKnown) {
+  const auto events = bounds("LD SM0.1\nATCH 1, 0\nATCH 0, 10\nENI\nMEND\nINT 0\nRETI\nINT 1\nRETI\n").events;
+  EXPECT_EQ(events[0].event, 0);
+  EXPECT_FALSE(events[0].may_stay_disabled);
+  EXPECT_EQ(events[0].before, std::vector<std::uint8_t>{0}) << "those of its own";
+  EXPECT_EQ(events[1].before, std::vector<std::uint8_t>{0}) << "inputs are served before";
+  EXPECT_FALSE(events[1].latency);
+  const auto of_port = bounds("LD SM0.1\nMOVB 9, SMB30\nATCH 1, 0\nATCH 0, 8\nENI\nMEND\nINT 0\nRETI\nINT 1\nRETI\n").events;
+  EXPECT_EQ(of_port[0].event, 8);
+  EXPECT_TRUE(of_port[0].latency) << "characters are served before the input";
+  EXPECT_TRUE(bounds("LD SM0.1\nATCH 0, 10\nENI\nLD I0.0\nDISI\nMEND\nINT 0\nRETI\n").events[0].may_stay_disabled);
+}
+
 TEST(Bounds, HaveNoLatencyWhereInterruptsStayDisabledOrAnEventHasNoPeriod) {
   EXPECT_FALSE(bounds("LD SM0.1\nATCH 0, 10\nENI\nLD I0.0\nDISI\nMEND\nINT 0\nRETI\n").events[0].latency);
   EXPECT_FALSE(bounds("LD SM0.1\nATCH 0, 0\nENI\nMEND\nINT 0\nLD SM0.0\nRETI\n").scan_with_interrupts);

@@ -53,13 +53,25 @@ std::string at_most(const Inspection& inspection, const std::vector<std::uint32_
                      stl::joined(loops, [&](std::uint32_t op) { return line_text(inspection, op); }));
 }
 
+std::string events_in_words(const std::vector<std::uint8_t>& events) {
+  const std::string all = stl::joined(events, [](std::uint8_t event) { return fmt::format("event {}", event); });
+  return fmt::format("{} {}", all, events.size() == 1 ? "comes" : "come");
+}
+
+std::string why_no_bound_with_interrupts(const Bounds& bounds) {
+  std::vector<std::uint8_t> unknown;
+  for (const Bounds::OfEvent& event : bounds.events)
+    if (!event.period) unknown.push_back(event.event);
+  return unknown.empty() ? "they leave no time for it" : fmt::format("how often {} is not known", events_in_words(unknown));
+}
+
 std::string scan_text(const Inspection& inspection, const Both& both, const std::optional<SeenTimes>& seen) {
   std::string text = fmt::format("Scan: {} {} ({} with the slowest times)",
                                  at_most(inspection, both.usual.routines[0].loops), ms(both.usual.scan), ms(both.slow.scan));
   if (!both.usual.events.empty())
     text += both.usual.scan_with_interrupts
                 ? fmt::format(", with the interrupts that can come in it {}", ms(*both.usual.scan_with_interrupts))
-                : ", with interrupts it has no bound: they leave no time for it, or how often they come is not known";
+                : ", with interrupts it has no bound: " + why_no_bound_with_interrupts(both.usual);
   if (seen) text += fmt::format("; seen in a run of {} s: {}", seen->run / kSecond, ms(seen->scan));
   text += fmt::format("; the watchdog stops the CPU after {}", ms(inspection.program->model->watchdog));
   return wrapped_at(text, 2) + "\n";
@@ -78,6 +90,15 @@ std::string routines_text(const Inspection& inspection, const Both& both) {
   return text;
 }
 
+std::string why_no_latency(const Bounds::OfEvent& event) {
+  if (event.may_stay_disabled) return "begins when the program has enabled interrupts again, which has no bound";
+  if (event.before.empty()) return "when it begins has no bound: the interrupts that are served first leave no time for it";
+  if (event.before == std::vector{event.event})
+    return "when it begins has no bound: as many as come before it are served first";
+  return fmt::format("when it begins has no bound: how often {} is not known, which is served first",
+                     events_in_words(event.before));
+}
+
 std::string event_text(const Inspection& inspection, const Bounds::OfEvent& event, const Bounds::OfEvent& slow,
                        const std::optional<SeenTimes>& seen) {
   const InterruptEvent* about = find_event(event.event);
@@ -88,7 +109,7 @@ std::string event_text(const Inspection& inspection, const Bounds::OfEvent& even
                       ms(slow.longest_routine));
   text += event.latency
               ? fmt::format(", and begins at most {} ({}) after it", ms(*event.latency), ms(slow.latency.value_or(0)))
-              : ", and begins when the program has enabled interrupts again, which has no bound";
+              : ", and " + why_no_latency(event);
   if (event.period && event.longest_routine > *event.period)
     text += "; the routine is longer than the time between two of them";
   const auto found = seen ? seen->events.find(event.event) : std::map<std::uint8_t, SeenTimes::OfEvent>::const_iterator{};
