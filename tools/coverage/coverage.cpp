@@ -104,14 +104,13 @@ void CoverageSink::instruction(const InstructionRecord& record) {
 
 void CoverageSink::see(const Op& op, const ContactForm& form, const InstructionRecord& record) {
   LastSeen& seen = seen_[record.op];
-  const auto closed = lets_through(*cpu_, op, form, record);
-  if (!closed) {
-    seen.level = kNever;
-    return;
+  const bool step_is_off = op.in_segment && !cpu_->state().rail;  // then no contact of it lets anything through
+  const auto closed = step_is_off ? std::nullopt : lets_through(*cpu_, op, form, record);
+  seen.level = closed ? level_ : kNever;
+  if (closed) {
+    tried_.marks[record.op] |= *closed ? Tried::kClosed : Tried::kOpen;
+    seen.closed = *closed;
   }
-  tried_.marks[record.op] |= *closed ? Tried::kClosed : Tried::kOpen;
-  seen.closed = *closed;
-  seen.level = level_;
   if (!form.is_edge()) return;
   seen.before = seen.now;
   seen.now = edge_memory(record.op);

@@ -110,14 +110,18 @@ TEST(Coverage, NotAndEdgesAreClosedWhenPowerLeavesThem) {
   EXPECT_TRUE(watched.was(4, Tried::kClosed));
 }
 
-TEST(Coverage, AContactInASegmentThatIsOffLetsNothingThrough) {
-  Watched watched("LSCR S0.0\nLD I0.0\n= M0.0\nSCRE\nMEND\n");
+TEST(Coverage, InASegmentThatIsOffNothingIsTriedOfAContact) {
+  Watched watched("LSCR S0.0\nLD I0.0\nA I0.1\n= M0.0\nLDW<= VW2, 5\nEU\n= M0.1\nSCRE\nMEND\n");
   watched.scan(1);
-  EXPECT_TRUE(watched.was(1, Tried::kOpen));
-  EXPECT_FALSE(watched.was(1, Tried::kClosed));
+  for (const std::uint32_t contact : {1U, 2U, 4U, 5U})
+    EXPECT_FALSE(watched.was(contact, Tried::kOpen) || watched.was(contact, Tried::kClosed)) << contact;
   watched.plc.set("S0.0", 1);
-  watched.scan(1);
-  EXPECT_TRUE(watched.was(1, Tried::kClosed));
+  watched.scan(2);
+  EXPECT_TRUE(watched.was(1, Tried::kOpen));
+  EXPECT_TRUE(watched.was(2, Tried::kClosed));
+  EXPECT_TRUE(watched.was(4, Tried::kClosed));
+  EXPECT_FALSE(watched.was(4, Tried::kOpen));
+  EXPECT_TRUE(watched.was(5, Tried::kClosed)) << "an edge, since the step went on";
 }
 
 TEST(Coverage, ABoxWithoutPowerFlowIsNotExecuted) {
