@@ -1,8 +1,11 @@
 #include "interpreter/analysis/effects/facts.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "interpreter/analysis/effects/value_boxes.hpp"
+#include "interpreter/model/ports.hpp"
+#include "interpreter/model/special_memory.hpp"
 #include "interpreter/program/ladder/networks.hpp"
 
 namespace s7200 {
@@ -24,6 +27,21 @@ std::vector<std::uint32_t> network_numbers(const Program& program, const Control
   return numbers;
 }
 
+/// RCV stores no more than its count byte and as many characters as SMB94, SMB194 of port 1, allows.
+void shorten_receptions(Facts& facts) {
+  for (std::uint32_t op = 0; op < facts.effects.size(); ++op) {
+    const Op& receives = facts.program.ops[op];
+    if (receives.instruction->effect != Effect::Receives || receives[1].unread() || receives[0].pointer) continue;
+    const auto most = constants_written(facts, kPorts[receives[1].at].message + sm::message::kMost, Width::Byte);
+    if (!most || most->empty()) continue;
+    const std::uint64_t end = (std::uint64_t{receives[0].at} + 1 + static_cast<std::uint64_t>(std::ranges::max(*most))) * 8;
+    std::erase_if(facts.effects[op],
+                  [&](const MemoryAccess& access) { return access.operand == 0 && access.bits.first >= end; });
+    for (MemoryAccess& access : facts.effects[op])
+      if (access.operand == 0) access.bits.count = std::min(access.bits.count, end - access.bits.first);
+  }
+}
+
 }  // namespace
 
 Facts facts_of(const Program& program, const Waiter& waiter) {
@@ -31,6 +49,7 @@ Facts facts_of(const Program& program, const Waiter& waiter) {
   Pointers pointers(program, flow, waiter);
   Facts facts{program, std::move(flow), std::move(pointers), {}, {}};
   for (std::uint32_t op = 0; op < program.ops.size(); ++op) facts.effects.push_back(effects_of(program, op, facts.pointers));
+  shorten_receptions(facts);
   facts.networks = network_numbers(program, facts.flow);
   return facts;
 }

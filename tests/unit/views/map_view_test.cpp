@@ -54,6 +54,17 @@ TEST(MapView, BlocksAreUsedAsFarAsTheyReach) {
   EXPECT_EQ(area("LD SM0.0\nFILL 0, VW10, 5\nMEND\n", "V")["used"][0]["memory"], "VB10 to VB19");
 }
 
+TEST(MapView, AMessageIsAsLongAsItsConstantsAllow) {
+  const std::string_view receives = "LD SM0.1\nMOVB 9, SMB30\n{}RCV VB500, 0\nMEND\n";
+  const auto used = [&](std::string_view set) {
+    return area(fmt::format(fmt::runtime(receives), set), "V", cpu224())["used"][0]["memory"];
+  };
+  EXPECT_EQ(used("MOVB 24, SMB94\n"), "VB500 to VB524");
+  EXPECT_EQ(used("MOVB 24, SMB94\nMOVB 30, SMB94\n"), "VB500 to VB530");
+  EXPECT_EQ(used("MOVB IB0, SMB94\n"), "VB500 to VB755");
+  EXPECT_EQ(used(""), "VB500 to VB755");
+}
+
 TEST(MapView, PointersAreNamedWhereTheyMayLead) {
   const ordered_json v = area("LD SM0.0\nMOVD &VB100, AC1\nMOVB 1, *AC1\nMOVB 2, VB0\nMEND\n", "V");
   EXPECT_EQ(v["pointers"], ordered_json::parse(R"(["*AC1"])"));
