@@ -1,5 +1,7 @@
 #include "interpreter/analysis/flow/calls.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -105,5 +107,40 @@ class Builder {
 }  // namespace
 
 Calls calls_of(const Program& program, const ControlFlow& flow) { return Builder(program, flow).all(); }
+
+std::optional<std::string> why_never_executed(const ControlFlow& flow, const Calls& calls, std::uint32_t routine) {
+  const Calls::Node& node = calls.nodes[routine];
+  if (node.executed()) return {};
+  const auto name = [&](std::uint32_t number) {
+    const Routine& named = flow.routines[number];
+    return fmt::format("{} {}", named.kind == Routine::Kind::Interrupt ? "INT" : "SBR", named.number);
+  };
+  if (flow.routines[routine].kind == Routine::Kind::Interrupt) return name(routine) + " is attached to no event";
+  if (node.called.empty()) return name(routine) + " is never called";
+  std::uint32_t root = routine;
+  for (std::size_t level = 0; level < calls.nodes.size() && !calls.nodes[root].called.empty(); ++level)
+    root = calls.nodes[root].called.front().routine;
+  const auto why =
+      root == routine || !calls.nodes[root].called.empty() ? std::nullopt : why_never_executed(flow, calls, root);
+  return fmt::format("{} is called only by what is never executed{}", name(routine), why ? ": " + *why : "");
+}
+
+std::vector<std::uint32_t> last_way_to(const ControlFlow& flow, std::uint32_t op) {
+  std::map<std::uint32_t, std::vector<std::uint32_t>> last_call;  // by routine; of one that calls itself, empty
+  const auto lead_to = [&](const auto& self, std::uint32_t routine) -> const std::vector<std::uint32_t>& {
+    const auto [known, is_new] = last_call.try_emplace(routine);
+    if (!is_new) return known->second;
+    for (const CallSite& call : flow.calls) {
+      if (call.routine != routine) continue;
+      std::vector<std::uint32_t> way = self(self, flow.nodes[call.op].routine);
+      way.push_back(call.op);
+      if (way > last_call[routine]) last_call[routine] = std::move(way);
+    }
+    return last_call[routine];
+  };
+  std::vector<std::uint32_t> last = lead_to(lead_to, flow.nodes[op].routine);
+  last.push_back(op);
+  return last;
+}
 
 }  // namespace s7200

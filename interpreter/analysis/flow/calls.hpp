@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "interpreter/analysis/flow/flow.hpp"
@@ -35,5 +36,12 @@ struct Calls {
 };
 
 Calls calls_of(const Program& program, const ControlFlow& flow);
+
+/// Why a routine is never executed: `SBR 7 is never called`; nothing if something starts it.
+std::optional<std::string> why_never_executed(const ControlFlow& flow, const Calls& calls, std::uint32_t routine);
+
+/// What leads to the last execution of an op in a scan: CALLs, the outermost first, and the op itself. Of two that begin in
+/// the same routine, the greater one is executed last.
+std::vector<std::uint32_t> last_way_to(const ControlFlow& flow, std::uint32_t op);
 
 }  // namespace s7200

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/analysis/flow/calls.hpp"
 #include "interpreter/analysis/flow/paths.hpp"
 #include "interpreter/analysis/warnings/lint_ops.hpp"
 #include "interpreter/program/checking/warnings.hpp"
@@ -43,16 +44,6 @@ struct Earlier {
 // --- coils ---
 
 constexpr Bits kOutputBits{image::kQ * 8u, image::kPointBytes * 8u};
-
-/// What leads to the last execution of an op in a scan: CALLs, the outermost first, and the op itself.
-std::vector<std::uint32_t> last_way_to(const ControlFlow& flow, std::uint32_t op, std::size_t depth = 0) {
-  std::vector<std::uint32_t> last;
-  for (const CallSite& call : flow.calls)
-    if (call.routine == flow.nodes[op].routine && depth < flow.routines.size())
-      last = std::max(last, last_way_to(flow, call.op, depth + 1));
-  last.push_back(op);
-  return last;
-}
 
 std::string winner_text(const Facts& facts, std::uint32_t coil, std::uint32_t other) {
   if (last_way_to(facts.flow, coil) < last_way_to(facts.flow, other)) std::swap(coil, other);
