@@ -13,15 +13,6 @@ using Gate = NetworkLogic::Gate;
 
 const std::vector<Conditions> kAlways{Conditions{}};
 
-/// Nothing if they contradict each other.
-std::optional<Conditions> merged(const Conditions& first, const Conditions& second) {
-  Conditions all;
-  std::ranges::set_union(first, second, std::back_inserter(all));
-  const auto same_op = [](const Condition& a, const Condition& b) { return a.op == b.op; };
-  if (std::ranges::adjacent_find(all, same_op) != all.end()) return {};
-  return all;
-}
-
 Structure structure_of(const Op& op) { return op.instruction->structure; }
 
 /// The LSCR in front of an op of a segment.
@@ -49,7 +40,32 @@ bool depends_on_front(const RungLogic& rung) {
 
 }  // namespace
 
-Ways::Ways(const Facts& facts, Present present) : facts_(facts), present_(std::move(present)) {}
+Ways::Ways(const Facts& facts, Present present) : facts_(facts), present_(std::move(present)), exclusions_(facts) {}
+
+/// Nothing if they contradict each other.
+std::optional<Conditions> Ways::merged(const Conditions& first, const Conditions& second) const {
+  Conditions all;
+  std::ranges::set_union(first, second, std::back_inserter(all));
+  const auto same_op = [](const Condition& a, const Condition& b) { return a.op == b.op; };
+  if (const auto same = std::ranges::adjacent_find(all, same_op); same != all.end()) {
+    exclusion_ = exclusions_.of_looking_twice(same->op);
+    return {};
+  }
+  for (const Condition& one : first)
+    for (const Condition& other : second) {
+      const auto exclusion = one.op == other.op ? std::nullopt : exclusions_.between(one, other);
+      if (!exclusion) continue;
+      exclusion_ = exclusion;
+      return {};
+    }
+  return all;
+}
+
+std::optional<Exclusion> Ways::take_exclusion() const {
+  const bool left_some_out = std::exchange(left_some_out_, false);
+  const auto exclusion = std::exchange(exclusion_, std::nullopt);
+  return left_some_out ? std::nullopt : exclusion;
+}
 
 Conditions Ways::changes(const Conditions& way) const {
   Conditions all;
@@ -66,7 +82,10 @@ void Ways::prune(std::vector<Conditions>& ways) const {
   }
   std::ranges::sort(ranked);
   ranked.erase(std::unique(ranked.begin(), ranked.end()), ranked.end());
-  if (ranked.size() > kMost) ranked.resize(kMost);
+  if (ranked.size() > kMost) {
+    ranked.resize(kMost);
+    left_some_out_ = true;
+  }
   ways.clear();
   for (auto& each : ranked) ways.push_back(std::move(std::get<Conditions>(each)));
 }

@@ -5,28 +5,18 @@
 // they are at present. FOR is not among them: a loop may run no time.
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <tuple>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "interpreter/analysis/effects/facts.hpp"
+#include "interpreter/analysis/flow/exclusions.hpp"
 #include "interpreter/program/ladder/network_logic.hpp"
 
 namespace s7200 {
-
-/// A contact that lets power through or does not; an LSCR whose S bit is on or off; an INT
-/// that runs. Of contacts of a network that look at the same it is the first, so that they do not contradict each other.
-struct Condition {
-  std::uint32_t op = 0;
-  bool on = false;
-  std::uint32_t in_rung = op;  ///< the contact that is in the rung, and what that one lets through
-  bool in_rung_on = on;
-  auto operator<=>(const Condition& other) const { return std::tie(op, on) <=> std::tie(other.op, other.on); }
-  bool operator==(const Condition& other) const { return op == other.op && on == other.on; }
-};
 
 /// Sorted, each op once.
 using Conditions = std::vector<Condition>;
@@ -66,6 +56,10 @@ class Ways {
   /// Those of all ways, the fewest first; none that has another one in it.
   std::vector<Conditions> fewest_changes(const std::vector<Conditions>& ways) const;
 
+  /// Why there was no way since this was asked last: two conditions that exclude each other. Nothing if there is another
+  /// reason, or if there were more ways than are kept.
+  std::optional<Exclusion> take_exclusion() const;
+
   /// The rung of an op.
   const RungLogic& rung_of(std::uint32_t op) const;
   std::uint32_t op_of(const NetworkLogic::Contact& contact) const;
@@ -79,8 +73,13 @@ class Ways {
   std::vector<Conditions> routine_runs(std::uint32_t routine) const;
   void prune(std::vector<Conditions>& ways) const;
 
+  std::optional<Conditions> merged(const Conditions& first, const Conditions& second) const;
+
   const Facts& facts_;
   Present present_;
+  Exclusions exclusions_;
+  mutable std::optional<Exclusion> exclusion_{};
+  mutable bool left_some_out_ = false;
   mutable std::map<std::uint32_t, RungLogic> rungs_{};
   mutable std::vector<std::uint32_t> open_{};  // routines whose calls are being followed
 };

@@ -1,5 +1,5 @@
-// Warnings that need the whole program. If it has errors, what they are in is unread (program/loading/unread.hpp). Each function
-// finds one warning of warnings.hpp.
+// Warnings that need the whole program. If it has errors, what they are in is unread (program/loading/unread.hpp). Each
+// function finds one warning of warnings.hpp.
 //
 // A wrong warning is worse than none. So two coils, or two executions of a timer, are reported only if no pass through the
 // program does one without the other; not if JMP, CRET, END, FOR or a conditional CALL may leave one out.
@@ -33,6 +33,15 @@ void find_skipped_timers(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// SM0.0 is always 1. LDN SM0.0 is left alone: it is how programs write a constant 0, or switch a rung off.
 void find_constant_contacts(const Facts& facts, stl::Diagnostics& diagnostics);
+
+/// A rung that needs what excludes each other, VW2 >= 950 and VW2 <= 90: power flow that no memory gives.
+void find_never_true(const Facts& facts, stl::Diagnostics& diagnostics);
+
+/// A counter that a comparison with its own value resets below its preset, and whose bit a contact looks at.
+void find_unreached_presets(const Facts& facts, stl::Diagnostics& diagnostics);
+
+/// ATCH of a timed interrupt that surely is executed in every scan: it starts the period again each time (facts 3.4).
+void find_restarted_timers(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// A timer or counter has one current value: executed twice in a scan, it counts twice or is reset by the other rung.
 void find_double_timers(const Facts& facts, stl::Diagnostics& diagnostics);

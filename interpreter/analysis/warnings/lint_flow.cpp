@@ -228,6 +228,24 @@ void find_constant_contacts(const Facts& facts, stl::Diagnostics& diagnostics) {
   }
 }
 
+void find_restarted_timers(const Facts& facts, stl::Diagnostics& diagnostics) {
+  const Program& program = facts.program;
+  const std::vector<std::uint32_t> all = attachments(program);
+  if (all.empty() || has_unread(program)) return;
+  Paths paths(program, facts.flow);
+  for (const std::uint32_t op : all) {
+    const std::uint32_t number = program.ops[op][1].at;
+    const bool timed = number == event::kTimed0 || number == event::kTimed1;
+    if (!timed || !facts.flow.nodes[op].powered || program.ops[op].in_segment || !paths.in_every_scan(op)) continue;
+    diagnostics.push_back(warn(
+        Warning::RestartedTimer, place(program, op),
+        fmt::format("this ATCH starts the period of event {} again in every scan: the event never comes while scans are "
+                    "shorter than the period",
+                    number),
+        "execute it once, with SM0.1 or an edge"));
+  }
+}
+
 void find_overwritten(const Facts& facts, stl::Diagnostics& diagnostics) {
   const Program& program = facts.program;
   if (has_unread(program)) return;

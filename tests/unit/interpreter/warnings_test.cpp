@@ -163,6 +163,52 @@ TEST(ConstantContact, IsOneOfSm00ThatDoesNothingOrNeverCloses) {
   EXPECT_EQ(warnings_of("LD SM0.0\nA I0.1\n= Q0.0\nLDN SM0.0\nNOT\n= Q0.1\nMEND\n"), "");
 }
 
+// --- never-true, unreached-preset, restarted-timer ---
+
+std::string of_cpu224(std::string_view stl) { return warnings_of(stl, cpu224()); }
+
+TEST(NeverTrue, IsARungThatNeedsWhatExcludesEachOther) {
+  EXPECT_EQ(of_cpu224("LDW>= VW2, 950\nAW<= VW2, 90\n= Q0.0\nMEND\n"), "2 never-true\n");
+  EXPECT_EQ(of_cpu224("LDB= VB2, 5\nAB= VB2, 6\n= Q0.0\nMEND\n"), "2 never-true\n");
+  EXPECT_EQ(of_cpu224("LDR> VD4, 1.5\nAR< VD4, -1.5\n= Q0.0\nMEND\n"), "2 never-true\n");
+  EXPECT_EQ(of_cpu224("LD I0.0\nA M0.0\nAN I0.0\n= Q0.0\nMEND\n"), "3 never-true\n");
+  EXPECT_EQ(of_cpu224("LD I0.0\nLDW> VW2, 9\nO M0.1\nALD\nAN M0.1\nAW< VW2, 9\nS Q0.0, 1\nMEND\n"), "6 never-true\n");
+  EXPECT_EQ(of_cpu224("LD SM0.0\nCALL 0\nMEND\nSBR 0\nLDN M0.0\nA I0.0\nA M0.0\nTON T37, 10\nRET\n"), "7 never-true\n");
+}
+
+TEST(NeverTrue, IsNoneWhereBothMayBe) {
+  EXPECT_EQ(of_cpu224("LDW>= VW2, 90\nAW<= VW2, 90\n= Q0.0\nMEND\n"), "");
+  EXPECT_EQ(of_cpu224("LDW>= VW2, 950\nOW<= VW2, 90\n= Q0.0\nMEND\n"), "");
+  EXPECT_EQ(of_cpu224("LDW>= VW2, 950\nNOT\nAW<= VW2, 90\n= Q0.0\nMEND\n"), "");
+  EXPECT_EQ(of_cpu224("LDW> VW2, 5\nAW< VW2, 7\nAW<> VW2, 8\n= Q0.0\nMEND\n"), "");
+  EXPECT_EQ(of_cpu224("LD M0.0\nR M0.0, 1\nAN M0.0\n= Q0.0\nMEND\n"), "") << "it is written between";
+  EXPECT_EQ(of_cpu224("LD M0.0\n= Q0.0\nLDN M0.0\n= Q0.1\nMEND\n"), "");
+  EXPECT_EQ(of_cpu224("LD M0.0\nA I0.0\nLDN M0.0\nAN I0.0\nOLD\n= Q0.0\nMEND\n"), "");
+  EXPECT_EQ(of_cpu224("LDI I0.0\nANI I0.0\n= Q0.0\nMEND\n"), "") << "the input may change between";
+  EXPECT_EQ(of_cpu224("LD M0.0\nED\nAN M0.0\n= Q0.0\nMEND\n"), "") << "it was on in the scan before";
+  EXPECT_EQ(of_cpu224("LDN SM0.0\n= Q0.0\nLD M0.0\nAN M0.0\n= M0.7\nMEND\n"), "") << "it makes a 0";
+}
+
+TEST(UnreachedPreset, IsThatOfACounterThatAComparisonResetsBelowIt) {
+  EXPECT_EQ(warnings_of("LD I0.0\nLDW>= C5, 20\nO I0.1\nCTU C5, 24\nLD C5\n= Q0.0\nMEND\n"), "4 unreached-preset\n");
+  EXPECT_EQ(warnings_of("LD I0.0\nLDW= C5, 20\nCTU C5, 24\nLD C5\n= Q0.0\nMEND\n"), "3 unreached-preset\n");
+  EXPECT_EQ(warnings_of("LD I0.0\nLDW>= C5, 24\nCTU C5, 24\nLD C5\n= Q0.0\nMEND\n"), "") << "for one scan it is on";
+  EXPECT_EQ(warnings_of("LD I0.0\nLDW>= C5, 20\nA I0.1\nCTU C5, 24\nLD C5\n= Q0.0\nMEND\n"), "") << "a condition more";
+  EXPECT_EQ(warnings_of("LD I0.0\nLDW>= C5, 20\nCTU C5, 32000\nLDW>= C5, 10\n= Q0.0\nMEND\n"), "")
+      << "nothing looks at its bit";
+  EXPECT_EQ(warnings_of("LD I0.0\nLDW>= C6, 20\nCTU C5, 24\nLD C5\n= Q0.0\nMEND\n"), "");
+  EXPECT_EQ(warnings_of("LD I0.0\nLDW>= C5, 20\nCTU C5, VW0\nLD C5\n= Q0.0\nMEND\n"), "");
+}
+
+TEST(RestartedTimer, IsAnAtchOfATimedInterruptThatEveryScanExecutes) {
+  constexpr std::string_view kRest = "MEND\nSBR 0\nLD SM0.0\nMOVB 50, SMB34\nATCH 0, 10\nRET\nINT 0\nINCW VW0\nRETI\n";
+  const auto with = [&](std::string_view main) { return warnings_of(fmt::format("LD SM0.1\nENI\n{}{}", main, kRest)); };
+  EXPECT_EQ(with("LD SM0.0\nCALL 0\n"), "9 restarted-timer\n");
+  EXPECT_EQ(with("LD SM0.1\nCALL 0\n"), "");
+  EXPECT_EQ(with("LD I0.0\nCALL 0\n"), "") << "when it goes off, the period runs";
+  EXPECT_EQ(with("LD I0.0\nEU\nCALL 0\n"), "");
+}
+
 // --- long-interrupt ---
 
 TEST(LongInterrupt, IsATimedOneThatTakesLongerThanItsPeriod) {
