@@ -263,6 +263,55 @@ TEST(WhyNot, ARungOfASubroutineNeedsItsCall) {
                   "I1.0 is 0 since 0.000000 ms, must be 1 (LD I1.0 in line 27): an input\n    EU in line 34 needs"));
 }
 
+TEST(WhyNot, OfSeveralCoilsTheOneThatIsExecutedLastDecides) {
+  constexpr std::string_view kTwo = "LD I0.0\n= Q0.6\n{}\nCALL 0\nMEND\nSBR 0\nLD I0.1\n= Q0.6\nRET\n";
+  AtPrompt always(on_cpu224(fmt::format(kTwo, "LD SM0.0")));
+  always("input I0.0=1; scan 3");
+  const std::string text = always("why not Q0.6");
+  EXPECT_TRUE(has(text, "  1 contact has to change:\n    I0.1 is 0 ")) << text;
+  AtPrompt sometimes(on_cpu224(fmt::format(kTwo, "LD I0.2")));
+  sometimes("input I0.0=1 I0.2=1; scan 3");
+  const std::string other = sometimes("why not Q0.6");
+  EXPECT_TRUE(has(other, "    I0.1 is 0 ")) << other;
+  EXPECT_TRUE(has(other, "    I0.2 is 1 ")) << other << "then the coil of the subroutine is not executed";
+  AtPrompt before(on_cpu224("LD SM0.0\nCALL 0\nLD I0.0\n= Q0.6\nMEND\nSBR 0\nLD I0.1\n= Q0.6\nRET\n"));
+  before("input I0.1=1; scan 3");
+  const std::string first = before("why not Q0.6");
+  EXPECT_TRUE(has(first, "  1 contact has to change:\n    I0.0 is 0 ")) << first;
+}
+
+TEST(WhyNot, AResetInASubroutineIsNamedWhereItIsInTheWay) {
+  AtPrompt session(on_cpu224("LD I0.0\nS M0.0, 1\nLD I0.7\nCALL 0\nMEND\nSBR 0\nLD SM0.0\nR M0.0, 1\nRET\n"));
+  session("scan 3");
+  const std::string idle = session("why not M0.0");
+  EXPECT_FALSE(has(idle, "R M0.0, 1")) << idle << "nothing calls it now";
+  session("input I0.7=1; scan 3");
+  const std::string called = session("why not M0.0");
+  EXPECT_TRUE(has(called, "  R M0.0, 1 in line 8: always\n")) << called;
+  EXPECT_TRUE(has(called, "    I0.7 is 1 ")) << called;
+}
+
+TEST(WhyNot, WhatExcludesEachOtherCanNeverBe) {
+  AtPrompt session(
+      on_cpu224("LDW>= VW2, 950\nAW<= VW2, 90\n= Q0.0\nLD I0.0\nLDW> VW2, 5\nALD\nAN I0.0\nO M0.0\nS M1.0, 1\n"
+                "LD I0.1\n= Q0.1\nLDN I0.1\n= Q0.1\nLD I0.1\nA M0.0\n= Q0.2\n"));
+  session("scan 3");
+  const std::string text = session("why not Q0.0");
+  EXPECT_TRUE(has(text, "  it can never be on: VW2 >= 950 (line 1) and VW2 <= 90 (line 2) exclude each other")) << text;
+  const std::string other = session("why not M1.0");
+  EXPECT_TRUE(has(other, "  1 contact has to change:\n    M0.0 is 0")) << other;
+  EXPECT_FALSE(has(session("why not Q0.2"), "exclude"));
+}
+
+TEST(WhyNot, WhatIsInARoutineThatNothingCallsSaysSo) {
+  AtPrompt session(on_cpu224("LD T37\n= Q0.0\nMEND\nSBR 7\nLD I0.0\nTON T37, 10\nLD I0.1\n= Q0.1\nRET\n"));
+  session("scan 3");
+  const std::string text = session("why not Q0.0");
+  EXPECT_TRUE(has(text, "no contact can do that: SBR 7 is never called")) << text;
+  const std::string coil = session("why not Q0.1");
+  EXPECT_TRUE(has(coil, "  it can never be on: SBR 7 is never called")) << coil;
+}
+
 TEST(WhyNot, ABitThatNothingWritesIsChangedFromOutsideOnly) {
   AtPrompt session(kTimes);
   session("continue 20ms");

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include "interpreter/analysis/effects/memory_names.hpp"
+#include "interpreter/analysis/flow/calls.hpp"
 #include "interpreter/base/text/among.hpp"
 #include "interpreter/base/text/counted.hpp"
 #include "interpreter/stl/printer.hpp"
@@ -40,6 +42,7 @@ Bits bit_at(const Operand& operand) { return {std::uint64_t{operand.at} * 8 + op
 Obstacles::Obstacles(const Cpu& cpu, const Facts& facts, const LatelyExecuted& lately, Time fresh_since)
     : cpu_(cpu),
       facts_(facts),
+      calls_(calls_of(facts.program, facts.flow)),
       contacts_(cpu, lately, fresh_since),
       has_run_(!lately.empty()),
       ways_(facts,
@@ -140,7 +143,7 @@ Obstacles::Writers Obstacles::writers_of(const Bits& bits, bool wanted, std::opt
     };
     if (std::ranges::any_of(effects, direct))
       note_writer(number, bits, wanted, writers);
-    else if (std::ranges::any_of(effects, led_there))
+    else if (calls_.nodes[facts_.flow.nodes[number].routine].executed() && std::ranges::any_of(effects, led_there))
       writers.pointers.push_back(number);
   }
   return writers;
@@ -155,12 +158,35 @@ bool Obstacles::add_forced(Obstacle& obstacle, const Bits& bits) const {
   return forced.all;
 }
 
+/// Why no way leads to any of some instructions: their routines are never executed, or conditions exclude each other.
+std::optional<std::string> Obstacles::why_never(const std::vector<std::uint32_t>& by) const {
+  const auto exclusion = ways_.take_exclusion();
+  std::set<std::string> reasons;
+  for (const std::uint32_t one : by) reasons.insert(never_executed(one).value_or(""));
+  if (!reasons.empty() && !reasons.contains("")) return fmt::format("{}", fmt::join(reasons, ", "));
+  return exclusion ? std::optional(exclusion_text(program(), *exclusion)) : std::nullopt;
+}
+
+std::optional<std::string> Obstacles::never_executed(std::uint32_t number) const {
+  return why_never_executed(facts_.flow, calls_, facts_.flow.nodes[number].routine);
+}
+
+/// Those of what `to` is about.
 void Obstacles::add_ways(Obstacle& to, const std::vector<Conditions>& ways) {
+  add_ways(to, ways, "no contact can do that", to.op ? std::vector{*to.op} : std::vector<std::uint32_t>{});
+}
+
+void Obstacles::add_ways(Obstacle& to, const std::vector<Conditions>& ways, std::string_view never,
+                         const std::vector<std::uint32_t>& by) {
   std::vector<Conditions> fewest = ways_.fewest_changes(ways);
   if (fewest.empty()) {
-    to.because.push_back({.kind = "never", .text = "no contact can do that: it never has power flow there"});
+    const auto why = why_never(by);
+    to.because.push_back(
+        {.kind = "never",
+         .text = why ? fmt::format("{}: {}", never, *why) : "no contact can do that: it never has power flow there"});
     return;
   }
+  ways_.take_exclusion();
   if (fewest.front().empty()) {
     to.because.push_back(
         {.kind = "fulfilled", .text = "nothing more is needed: it is so the next time that it is executed"});
@@ -183,6 +209,12 @@ void Obstacles::add_ways(Obstacle& to, const std::vector<Conditions>& ways) {
   }
   if (fewest.size() > shown)
     to.because.push_back({.kind = "more", .text = fmt::format("and {} more", counted(fewest.size() - shown, "way"))});
+}
+
+void Obstacles::add_ways_if_any_changes(Obstacle& to, const std::vector<Conditions>& ways) {
+  const std::vector<Conditions> fewest = ways_.fewest_changes(ways);
+  if (fewest.empty() || !fewest.front().empty()) return add_ways(to, ways);
+  ways_.take_exclusion();
 }
 
 Obstacle Obstacles::of_input(std::uint32_t number, std::size_t level, bool on, std::string text) {
@@ -383,6 +415,29 @@ void Obstacles::add_arguments(Obstacle& to, const Bits& local, bool wanted, std:
   }
 }
 
+/// Whether, in a scan that executes both, `other` is executed after `op`.
+bool Obstacles::is_executed_after(std::uint32_t number, std::uint32_t other) const {
+  const std::vector<std::uint32_t> way = last_way_to(facts_.flow, number), other_way = last_way_to(facts_.flow, other);
+  return facts_.flow.nodes[way.front()].routine == facts_.flow.nodes[other_way.front()].routine && other_way > way;
+}
+
+bool Obstacles::is_so_already(const std::vector<Conditions>& ways) const {
+  return std::ranges::any_of(ways, [&](const Conditions& way) { return ways_.changes(way).empty(); });
+}
+
+/// That `later`, which is executed after `number`, has power flow or none, as is wanted; or that it is not called there.
+std::vector<Conditions> Obstacles::kept_harmless(std::uint32_t number, std::uint32_t later, bool power) const {
+  std::vector<Conditions> ways = ways_.input(later, 0, power);
+  const std::vector<std::uint32_t> way = last_way_to(facts_.flow, number), later_way = last_way_to(facts_.flow, later);
+  const auto parts = std::ranges::mismatch(way, later_way).in2;
+  for (auto call = parts; call != later_way.end() && *call != later; ++call) {
+    const bool only_one =
+        std::ranges::count(facts_.flow.calls, facts_.flow.nodes[op(*call).target].routine, &CallSite::routine) == 1;
+    if (only_one && !facts_.flow.nodes[*call].powered) ways = ways_.either(std::move(ways), ways_.input(*call, 0, false));
+  }
+  return ways;
+}
+
 void Obstacles::add_ways_of_bit(Obstacle& to, const Writers& writers, const Bits& bit, bool wanted) {
   std::vector<Conditions> ways;
   std::vector<std::uint32_t> rungs = writers.deciding;
@@ -391,12 +446,14 @@ void Obstacles::add_ways_of_bit(Obstacle& to, const Writers& writers, const Bits
     std::vector<Conditions> own = ways_.to(by, coil ? wanted : true);
     for (const auto* list : {&writers.deciding, &writers.opposing})
       for (const std::uint32_t other : *list) {
-        const bool later = other > by && facts_.flow.nodes[other].routine == facts_.flow.nodes[by].routine;
         const bool other_coil = is_among(op(other).instruction->mnemonic, {"=", "=I"});
         const bool opposes = list == &writers.opposing;
-        if (!later || (!other_coil && !opposes)) continue;
-        own = ways_.both(own, other_coil ? ways_.input(other, 0, wanted) : ways_.input(other, 0, false));
-        if (opposes && std::ranges::find(rungs, other) == rungs.end()) rungs.push_back(other);
+        if ((!other_coil && !opposes) || !is_executed_after(by, other)) continue;
+        const std::vector<Conditions> harmless = kept_harmless(by, other, other_coil && wanted);
+        own = ways_.both(own, harmless);
+        const bool beside = facts_.flow.nodes[other].routine == facts_.flow.nodes[by].routine;
+        const bool told = opposes && (beside || !is_so_already(harmless));
+        if (told && std::ranges::find(rungs, other) == rungs.end()) rungs.push_back(other);
       }
     ways = ways_.either(std::move(ways), own);
   }
@@ -409,7 +466,12 @@ void Obstacles::add_ways_of_bit(Obstacle& to, const Writers& writers, const Bits
   });
   std::ranges::sort(rungs);
   add_rungs(to, rungs);
-  if (!writers.deciding.empty()) add_ways(to, ways);
+  const bool by_others =
+      !writers.others.empty() || !writers.calls.empty() || !writers.messages.empty() || !writers.pointers.empty();
+  const std::string_view never = by_others ? "no contact can do that"
+                                 : wanted  ? "it can never be on"
+                                           : "it can never be off";
+  if (!writers.deciding.empty()) add_ways(to, ways, never, writers.deciding);
   for (std::size_t i = 0; i < std::min(kMostOfMemory, writers.others.size()); ++i)
     to.because.push_back(of_writer(writers.others[i], bit, wanted));
   for (std::size_t i = 0; i < std::min(kMostOfMemory, writers.calls.size()); ++i)
@@ -421,10 +483,10 @@ void Obstacles::add_ways_of_bit(Obstacle& to, const Writers& writers, const Bits
 void Obstacles::add_rungs(Obstacle& to, const std::vector<std::uint32_t>& writers) const {
   for (std::size_t i = 0; i < std::min(kMostOfMemory, writers.size()); ++i) {
     const std::uint32_t by = writers[i];
-    const bool idle = has_run_ && !runs(by);
+    const auto never = never_executed(by);
+    const std::string idle = never ? ", but " + *never : has_run_ && !runs(by) ? ", not executed lately" : "";
     to.because.push_back({.kind = "rung",
-                          .text = fmt::format("{}: {}{}{}", place_text(by), rung_text(by, 0), interrupt_text(by),
-                                              idle ? ", not executed lately" : ""),
+                          .text = fmt::format("{}: {}{}{}", place_text(by), rung_text(by, 0), interrupt_text(by), idle),
                           .op = by});
   }
   if (writers.size() > kMostOfMemory)
@@ -466,8 +528,7 @@ Obstacle Obstacles::of_writer(std::uint32_t number, const Bits& bit, bool wanted
                           area_of(source) != Area::L;
     if (is_plain && is_on(source) != wanted) found.because.push_back(of_bit(source, wanted));
   }
-  const std::vector<Conditions> fewest = ways_.fewest_changes(ways_.to(number, true));
-  if (fewest.empty() || !fewest.front().empty()) add_ways(found, ways_.to(number, true));
+  add_ways_if_any_changes(found, ways_.to(number, true));
   return found;
 }
 
@@ -482,8 +543,7 @@ Obstacle Obstacles::of_call(std::uint32_t call, const Bits& bit, bool wanted) {
     inside.value = is_on(bit) ? "1" : "0";
     found.because.push_back(std::move(inside));
   }
-  const std::vector<Conditions> ways = ways_.to(call, true), fewest = ways_.fewest_changes(ways);
-  if (fewest.empty() || !fewest.front().empty()) add_ways(found, ways);
+  add_ways_if_any_changes(found, ways_.to(call, true));
   return found;
 }
 

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "interpreter/analysis/effects/facts.hpp"
+#include "interpreter/analysis/flow/calls.hpp"
 #include "interpreter/analysis/flow/ways.hpp"
 #include "interpreter/analysis/rung_text.hpp"
 #include "tools/session/causes/contacts.hpp"
@@ -63,9 +65,17 @@ class Obstacles {
   bool add_forced(Obstacle& obstacle, const Bits& bits) const;
   Writers writers_of(const Bits& bits, bool wanted, std::optional<std::uint32_t> routine) const;
   void note_writer(std::uint32_t op, const Bits& bits, bool wanted, Writers& writers) const;
+  std::optional<std::string> why_never(const std::vector<std::uint32_t>& by) const;
+  std::optional<std::string> never_executed(std::uint32_t op) const;
   void add_ways(Obstacle& to, const std::vector<Conditions>& ways);
+  void add_ways(Obstacle& to, const std::vector<Conditions>& ways, std::string_view never,
+                const std::vector<std::uint32_t>& by);
+  void add_ways_if_any_changes(Obstacle& to, const std::vector<Conditions>& ways);
   void add_ways_of_edge(Obstacle& to, const std::vector<Conditions>& ways, bool rising);
   void add_ways_of_bit(Obstacle& to, const Writers& writers, const Bits& bit, bool wanted);
+  bool is_executed_after(std::uint32_t op, std::uint32_t other) const;
+  bool is_so_already(const std::vector<Conditions>& ways) const;
+  std::vector<Conditions> kept_harmless(std::uint32_t op, std::uint32_t later, bool power) const;
   void add_rungs(Obstacle& to, const std::vector<std::uint32_t>& writers) const;
   void add_resets(Obstacle& to, const Bits& bit);
   void add_arguments(Obstacle& to, const Bits& local, bool wanted, std::uint32_t routine);
@@ -84,6 +94,7 @@ class Obstacles {
 
   const Cpu& cpu_;
   const Facts& facts_;
+  Calls calls_;
   Contacts contacts_;
   bool has_run_;  ///< something was executed lately, so that what was not is known
   Ways ways_;
