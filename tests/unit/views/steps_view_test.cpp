@@ -63,6 +63,25 @@ TEST(StepsView, SaysWhatNothingActivatesAndWhatLeadsNowhere) {
   EXPECT_EQ(steps_text(inspected("LD I0.0\n= Q0.0\nMEND\n")), "The program has no steps: no LSCR and no SCRT\n");
 }
 
+TEST(StepsView, SaysWhatNothingCalls) {
+  const auto inspection = inspected(
+      "LSCR S0.1\nLD T37\nSCRT S0.2\nSCRE\nMEND\nSBR 7\nLD S0.1\nTON T37, 10\nLD I0.0\nS S0.1, 1\nLSCR S0.2\nLD I0.1\n= "
+      "Q0.0\n"
+      "SCRE\nRET\n");
+  EXPECT_EQ(steps_text(inspection),
+            "S0.1: MAIN, network 1, test.stl:1\n"
+            "  switched on   S S0.1, 1 (test.stl:10) if I0.0; but SBR 7 is never called\n"
+            "  leads to      S0.2 (test.stl:3) if T37; but T37 never counts: SBR 7 is never called\n"
+            "  looked at     LD S0.1 (test.stl:7)\n"
+            "\n"
+            "S0.2: SBR_7, network 2, test.stl:11\n"
+            "  never runs    SBR 7 is never called\n"
+            "  switched on   SCRT S0.2 (test.stl:3) if T37; but T37 never counts: SBR 7 is never called\n"
+            "  leads to      no other step\n"
+            "  does          = Q0.0 (test.stl:13) if I0.1\n");
+  EXPECT_EQ(steps_json(inspection)[1]["never_runs"], "SBR 7 is never called");
+}
+
 TEST(StepsView, JsonHasTheSame) {
   const auto json = steps_json(inspected(kSequence, {"S0.2"}));
   ASSERT_EQ(json.size(), 1U);

@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "interpreter/analysis/effects/memory_names.hpp"
+#include "interpreter/analysis/flow/calls.hpp"
 #include "interpreter/analysis/rung_text.hpp"
 #include "interpreter/analysis/steps.hpp"
 #include "interpreter/base/text/joined.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/model/contact_form.hpp"
 #include "interpreter/stl/printer.hpp"
 
 namespace s7200::tools {
@@ -24,6 +27,7 @@ class StepsView {
  public:
   explicit StepsView(const Inspection& inspection)
       : inspection_(inspection),
+        calls_(calls_of(*inspection.program, inspection.facts.flow)),
         ways_(inspection.facts, {[](std::uint32_t) { return false; }, [](std::uint32_t) { return true; }}),
         rungs_(ways_, [&](std::uint32_t op, std::size_t operand) { return operand_text(op, operand); }) {
     for (Step& step : steps_of(inspection.facts))
@@ -72,11 +76,12 @@ class StepsView {
     for (const std::string& name : symbols_of(step.bit)) head += fmt::format(" \"{}\"", name);
     head += step.segment ? fmt::format(": {}", place_in_words(inspection_, *step.segment)) : ": it has no segment (LSCR)";
     std::string text = wrapped_at(head, 2) + "\n";
+    if (const auto never = step.segment ? never_executed(*step.segment) : std::nullopt) text += row("never runs", *never);
     text += step.switched_on.empty() ? row("switched on", "by nothing that is known")
                                      : with_conditions("switched on", step.switched_on);
     text += of_transitions(step);
     text += with_conditions("switched off", step.switched_off) + with_conditions("written", step.written);
-    text += with_conditions("does", step.actions);
+    text += with_conditions("does", step.actions, true);
     if (!step.looked_at.empty()) text += row("looked at", places(step.looked_at));
     return text;
   }
@@ -88,21 +93,63 @@ class StepsView {
       text += row_with_condition(text.empty() ? "leads to" : "",
                                  fmt::format("{} ({})", memory_text(target_of_transition(inspection_.program->ops[op])),
                                              line_text(inspection_, op)),
-                                 op);
+                                 op, true);
     return text;
   }
 
-  std::string with_conditions(std::string_view what, const std::vector<std::uint32_t>& ops) const {
+  std::string with_conditions(std::string_view what, const std::vector<std::uint32_t>& ops, bool own = false) const {
     std::string text;
     for (const std::uint32_t op : ops)
-      text += row_with_condition(text.empty() ? what : "",
-                                 fmt::format("{} ({})", instruction_text(inspection_, op), line_text(inspection_, op)), op);
+      text +=
+          row_with_condition(text.empty() ? what : "",
+                             fmt::format("{} ({})", instruction_text(inspection_, op), line_text(inspection_, op)), op, own);
     return text;
   }
 
-  std::string row_with_condition(std::string_view what, const std::string& text, std::uint32_t op) const {
+  /// `own`: it is part of the segment of the step, which has said why it never runs.
+  std::string row_with_condition(std::string_view what, const std::string& text, std::uint32_t op, bool own) const {
     const std::string condition = rungs_.of(op, 0);
-    return row(what, condition == "always" ? text : fmt::format("{} if {}", text, condition));
+    std::string all = condition == "always" ? text : fmt::format("{} if {}", text, condition);
+    const auto never = own ? std::nullopt : never_executed(op);
+    if (never) all += "; but " + *never;
+    for (const std::string& unmet : never_met(op)) all += "; but " + unmet;
+    return row(what, all);
+  }
+
+  std::optional<std::string> never_executed(std::uint32_t op) const {
+    const ControlFlow& flow = inspection_.facts.flow;
+    return why_never_executed(flow, calls_, flow.nodes[op].routine);
+  }
+
+  /// The timers and counters that a condition waits for and whose boxes are all in routines that are never executed.
+  std::vector<std::string> never_met(std::uint32_t op) const {
+    std::vector<std::string> all;
+    for (const NetworkLogic::Contact& contact : ways_.rung_of(op).logic.contacts) {
+      if (!contact.statement) continue;
+      const Op& look = inspection_.program->ops[ways_.op_of(contact)];
+      const auto never =
+          contact_form(*look.instruction).kind == ContactForm::Kind::Bit ? never_counts(look[0]) : std::nullopt;
+      if (never && std::ranges::find(all, *never) == all.end()) all.push_back(*never);
+    }
+    return all;
+  }
+
+  std::optional<std::string> never_counts(const Operand& contact) const {
+    const Bits bit{std::uint64_t{contact.at} * 8 + contact.bit, 1};
+    if (contact.pointer || bit.first < image::kTBits * 8u || bit.first >= image::kInputs * 8u) return {};
+    std::optional<std::string> why;
+    const auto& effects = inspection_.facts.effects;
+    for (std::uint32_t op = 0; op < effects.size(); ++op) {
+      const bool counts = inspection_.program->ops[op].instruction->hidden == Hidden::Number;
+      const bool of_it = std::ranges::any_of(effects[op], [&](const MemoryAccess& access) {
+        return access.writes() && !access.by_pointer && access.bits.overlaps(bit);
+      });
+      if (!counts || !of_it) continue;
+      const auto never = never_executed(op);
+      if (!never) return {};
+      why = fmt::format("{} never counts: {}", memory_text(as_named(bit)), *never);
+    }
+    return why;
   }
 
   static std::string row(std::string_view what, const std::string& text) {
@@ -127,6 +174,8 @@ class StepsView {
   ordered_json json_of(const Step& step) const {
     ordered_json json{{"step", memory_text(step.bit)}, {"symbols", symbols_of(step.bit)}};
     json["segment"] = step.segment ? place_json(inspection_, *step.segment) : ordered_json();
+    const auto never = step.segment ? never_executed(*step.segment) : std::nullopt;
+    json["never_runs"] = never ? ordered_json(*never) : ordered_json();
     json["switched_on"] = conditions_json(step.switched_on);
     json["transitions"] = conditions_json(step.transitions);
     for (std::size_t i = 0; i < step.transitions.size(); ++i)
@@ -140,6 +189,7 @@ class StepsView {
   }
 
   const Inspection& inspection_;
+  Calls calls_;
   Ways ways_;
   RungText rungs_;
   std::vector<Step> steps_{};
