@@ -137,6 +137,28 @@ bool unforce(Core& core, const MemoryRange& place) {
   return any;
 }
 
+void put_over(const State& s, std::uint32_t at, std::span<std::uint8_t> bytes) {
+  if (!s.forcing.any) return;
+  for (std::uint32_t i = 0; i < bytes.size(); ++i) {
+    const std::uint32_t input = at + i - image::kI, output = at + i - image::kQ;  // wraps below the area
+    if (input < image::kPointBytes) bytes[i] = s.forcing.inputs.over(input, bytes[i]);
+    if (output < image::kPointBytes) bytes[i] = s.forcing.outputs.over(output, bytes[i]);
+  }
+  for (std::uint8_t value = 0; value < s.forcing.values; ++value) {
+    const ForcedValue& forced = s.forcing.memory[value];
+    const std::uint32_t size = bytes_of(forced.width);
+    for (std::uint32_t i = 0; i < size; ++i)
+      if (forced.at + i >= at && forced.at + i - at < bytes.size())
+        bytes[forced.at + i - at] = static_cast<std::uint8_t>(forced.value >> 8 * (size - 1 - i));
+  }
+}
+
+std::vector<std::uint8_t> seen_outside(const State& s, const MemoryRange& place) {
+  std::vector<std::uint8_t> bytes(s.image.begin() + place.at, s.image.begin() + place.at + place.bytes());
+  put_over(s, place.at, bytes);
+  return place.width == Width::Bit ? std::vector{static_cast<std::uint8_t>(bytes[0] >> place.bit & 1)} : bytes;
+}
+
 void apply(Core& core) {
   for (std::uint8_t i = 0; i < core.s.forcing.values; ++i) write(core, core.s.forcing.memory[i]);
 }

@@ -17,6 +17,8 @@
 //   [Forcing.AnalogValuesAreForcedAtOnce]
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "interpreter/cpu/core.hpp"
@@ -47,6 +49,13 @@ inline std::uint8_t input(const State& s, std::uint32_t byte) { return s.forcing
 inline std::uint8_t output(const State& s, std::uint32_t byte, std::uint8_t value) {
   return s.forcing.outputs.over(byte, value);
 }
+
+/// Puts what is forced over bytes that were taken from the image at `at`.
+void put_over(const State& s, std::uint32_t at, std::span<std::uint8_t> bytes);
+
+/// A place as those outside see it, at terminals or as a master: what is forced is as it is forced, though the program may
+/// have put something else there in this scan. What people look at and check is this; what instructions find is the image.
+std::vector<std::uint8_t> seen_outside(const State& s, const MemoryRange& place);
 
 /// Writes the forced values of memory.
 void apply(Core& core);

@@ -83,6 +83,27 @@ TEST(Forcing, MemoryIsForcedAgainAfterTheProgramHasChangedIt) {
   EXPECT_EQ(load16(&plc.cpu.state().image[image::kV + 10]), 5);
 }
 
+TEST(Forcing, IsSeenFromOutsideWhateverTheProgramHasPutThereInThisScan) {
+  Plc plc("MEND\n");
+  force(plc, "Q0.1", 1);
+  force(plc, "I0.2", 1);
+  force(plc, "VW10", 0x1234);
+  State state = plc.cpu.state();
+  state.image[image::kQ] = 0x80;
+  state.image[image::kI] = 0;
+  for (std::uint32_t byte = 9; byte < 13; ++byte) state.image[image::kV + byte] = 0xEE;
+  const auto seen = [&](std::string_view place) { return forcing::seen_outside(state, place_of(place)); };
+  EXPECT_EQ(seen("Q0.1"), Bytes{1});
+  EXPECT_EQ(seen("Q0.7"), Bytes{1}) << "what is not forced is what the program has";
+  EXPECT_EQ(seen("QB0:2"), (Bytes{0x82, 0}));
+  EXPECT_EQ(seen("IB0"), Bytes{4}) << "before the inputs are read";
+  EXPECT_EQ(seen("VW10"), (Bytes{0x12, 0x34}));
+  EXPECT_EQ(seen("VB11:2"), (Bytes{0x34, 0xEE}));
+  EXPECT_EQ(seen("VB9:2"), (Bytes{0xEE, 0x12}));
+  EXPECT_EQ(seen("V11.2"), Bytes{1});
+  EXPECT_EQ(seen("MB0:32"), Bytes(32)) << "which lies behind the outputs";
+}
+
 TEST(Forcing, WhatAProgrammingDeviceWritesDoesNotChangeForcedMemory) {
   Plc plc("MEND\n");
   force(plc, "MB3", 7);

@@ -65,6 +65,19 @@ TEST(ScenarioRunner, TheFirstRequestIsAnsweredAtEveryRate) {
         << rate.baud;
 }
 
+TEST(ScenarioRunner, WhatIsForcedIsCheckedAsItIsForcedWhereverTheScanIs) {
+  const auto copy = test::compile("LD I0.0\n= Q0.0\nLD SM0.0\nMOVB 1, VB0\nINCW VW10\nINCW VW10\nMEND\n");
+  for (int at = 0; at < 8; ++at) {
+    const std::string wait = fmt::format("  - wait: {}us\n", 100000 + 13 * at);
+    EXPECT_EQ(findings("  - force: {Q0.0: 1, VB0: 7}\n" + wait + "  - memory: {Q0.0: 1, VB0: 7}\n" +
+                           "  - wait_until: {Q0.0: 1, VB0: 7}\n",
+                       "", copy),
+              "");
+    EXPECT_EQ(findings("  - force: {Q0.0: 0}\n  - set: {I0.0: 1}\n" + wait + "  - memory: {Q0.0: 1}\n", "", copy),
+              "Q0.0: 1 / 0\n");
+  }
+}
+
 TEST(ScenarioRunner, EveryExpectationThatHoldsPasses) {
   EXPECT_EQ(findings("  - {write: holding 10, value: 16#1234, expect: echo, latency: 6ms..20ms, answer_gap: ..1ms}\n"
                      "  - {read: holding 10, expect: [16#1234]}\n"

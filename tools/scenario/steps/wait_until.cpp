@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "interpreter/cpu/units/forcing.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/transcripts/transcript_writer.hpp"
 #include "tools/views/state/memory.hpp"
@@ -22,7 +23,7 @@ std::string when_given_up(bool early, Time waited) {
 void WaitUntilStep::act(Run& run) const {
   run.count_check();
   Plant& plant = *run.plant();
-  const auto in_memory = [&](const MemoryExpected& e) { return e.range.bytes_in(plant.cpu().state().image); };
+  const auto in_memory = [&](const MemoryExpected& e) { return forcing::seen_outside(plant.cpu().state(), e.range); };
   const auto fits = [&](const MemoryExpected& e) { return e.fits(in_memory(e)); };
   const Time most = timeout.value_or(run.scenario().line.timeout), begin = plant.simulation().time();
   if (plant.wait_until([&] { return std::all_of(expected.begin(), expected.end(), fits); }, most)) return;

@@ -13,6 +13,7 @@
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/cpu/units/forcing.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -309,10 +310,13 @@ class ExpressionReader {
   std::string why_;
 };
 
-std::optional<Value> value_of(const Place& place, const Cpu& cpu) {
+std::optional<Value> value_of(const Place& place, const Cpu& cpu, Expression::SeenBy by) {
   const auto range = range_now(place, cpu);
   if (!range) return {};
-  const std::uint8_t* const from = &cpu.state().image[range->at];
+  std::array<std::uint8_t, 4> bytes{};
+  const std::uint8_t* const from = bytes.data();
+  std::copy_n(cpu.state().image.begin() + range->at, bytes_of(range->width), bytes.begin());
+  if (by == Expression::SeenBy::Outside) forcing::put_over(cpu.state(), range->at, {bytes.data(), bytes_of(range->width)});
   switch (range->width) {
     case Width::Bit:
       return Value{static_cast<double>(*from >> range->bit & 1), false, 1};
@@ -360,20 +364,20 @@ Result<Value> compute(std::string_view op, const Value& left, const Value& right
   return Value{real ? a / b : std::trunc(a / b), real};
 }
 
-Result<Value> evaluate(const Node& node, const Cpu& cpu) {
+Result<Value> evaluate(const Node& node, const Cpu& cpu, Expression::SeenBy by) {
   if (node.kind == Node::Kind::Constant) return node.constant;
   if (node.kind == Node::Kind::Memory) {
-    const auto value = value_of(node.place, cpu);
+    const auto value = value_of(node.place, cpu, by);
     if (!value) return Trouble{nowhere_text(node, cpu)};
     return *value;
   }
-  const auto left = evaluate(*node.left, cpu);
+  const auto left = evaluate(*node.left, cpu, by);
   if (!left) return left.trouble();
   if (node.kind == Node::Kind::Not) return Value{left->truth() ? 0.0 : 1.0};
   if (node.kind == Node::Kind::Negate) return Value{left->real ? -left->number : 0 - left->number, left->real};
   if (node.op == "and" && !left->truth()) return Value{0};
   if (node.op == "or" && left->truth()) return Value{1};
-  const auto right = evaluate(*node.right, cpu);
+  const auto right = evaluate(*node.right, cpu, by);
   return right ? compute(node.op, *left, *right) : right;
 }
 
@@ -415,7 +419,7 @@ Result<Expression> Expression::parse(std::string_view text, const Program& progr
   return Trouble{reader.why()};
 }
 
-Result<Value> Expression::value(const Cpu& cpu) const { return evaluate(*root_, cpu); }
+Result<Value> Expression::value(const Cpu& cpu, SeenBy by) const { return evaluate(*root_, cpu, by); }
 
 std::vector<Place> Expression::places() const {
   std::vector<const Node*> nodes;
@@ -429,12 +433,12 @@ std::vector<Place> Expression::places_against(bool wanted, const Cpu& cpu) const
   return places_of(nodes);
 }
 
-std::string Expression::places_text(const Cpu& cpu) const {
+std::string Expression::places_text(const Cpu& cpu, SeenBy by) const {
   std::vector<const Node*> places;
   collect_places(*root_, places);
   std::string text;
   for (const Node* const place : places) {
-    const auto value = value_of(place->place, cpu);
+    const auto value = value_of(place->place, cpu, by);
     text += text.empty() ? "" : ", ";
     text += value ? fmt::format("{} is {}", stl::printable(place->name), number_text(*value)) : nowhere_text(*place, cpu);
   }

@@ -63,11 +63,14 @@ class Expression {
   /// Trouble with the column, if it cannot be read.
   static Result<Expression> parse(std::string_view text, const Program& program);
 
+  /// What is forced has its forced value outside, while the program finds what it has put there itself.
+  enum class SeenBy : std::uint8_t { Program, Outside };
+
   /// Trouble where a pointer points nowhere, and by division by 0.
-  Result<Value> value(const Cpu& cpu) const;
+  Result<Value> value(const Cpu& cpu, SeenBy by = SeenBy::Program) const;
 
   /// `VW20 is 7, M0.1 is 0`: all its places, as they are written in it; empty if it has none.
-  std::string places_text(const Cpu& cpu) const;
+  std::string places_text(const Cpu& cpu, SeenBy by = SeenBy::Program) const;
 
   /// The addresses in it, each once.
   std::vector<Place> places() const;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/cpu/units/forcing.hpp"
 #include "tools/session/causes/contacts.hpp"
 #include "tools/session/causes/last/last_changes.hpp"
 #include "tools/session/causes/obstacles.hpp"
@@ -41,6 +42,13 @@ std::optional<Bits> bit_of(const MemoryRange& range) {
   return Bits{std::uint64_t{area.bits} * 8 + range.number, 1};
 }
 
+/// As those outside see it: what is forced is as it is forced.
+bool is_on_outside(const State& state, const Bits& bit) {
+  std::uint8_t byte = state.image[bit.first / 8];
+  forcing::put_over(state, static_cast<std::uint32_t>(bit.first / 8), {&byte, 1});
+  return (byte >> (bit.first % 8) & 1) != 0;
+}
+
 bool is_on(const Cpu& cpu, const Bits& bit) { return (cpu.state().image[bit.first / 8] >> (bit.first % 8) & 1) != 0; }
 
 /// The bits of memory that the answer names.
@@ -68,7 +76,7 @@ Obstacle tree_of(const Wish& wish, Obstacles& obstacles, const Cpu& cpu) {
   const bool holds = holds_now(wish, cpu).value_or(false);
   Obstacle answer{.kind = "condition",
                   .text = fmt::format("{} {}: {}", stl::printable(wish.text), holds ? "holds" : "does not hold",
-                                      wish.condition->places_text(cpu))};
+                                      wish.condition->places_text(cpu, Expression::SeenBy::Outside))};
   for (const Place& place : wish.condition->places_against(!holds, cpu)) {
     const auto range = range_now(place, cpu);
     if (!range) continue;
@@ -111,8 +119,8 @@ std::vector<Bits> bits_of(const Wish& wish) {
 }
 
 Result<bool> holds_now(const Wish& wish, const Cpu& cpu) {
-  if (wish.bit) return is_on(cpu, *wish.bit) == wish.on;
-  const auto value = wish.condition->value(cpu);
+  if (wish.bit) return is_on_outside(cpu.state(), *wish.bit) == wish.on;
+  const auto value = wish.condition->value(cpu, Expression::SeenBy::Outside);
   if (!value) return value.trouble();
   return value->truth();
 }

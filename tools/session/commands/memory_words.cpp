@@ -7,6 +7,7 @@
 
 #include "interpreter/base/text/nearest.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/cpu/units/forcing.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tools/session/causes/expression.hpp"
 #include "tools/session/stops/stop_words.hpp"
@@ -134,10 +135,17 @@ std::string with_local_variables(Session& session, Words& words, std::optional<s
 
 std::string memory_text(const Session& session, std::size_t station, const MemoryRange& range) {
   const Cpu& cpu = session.stations[station].simulation->cpu();
-  const std::string forced = forced_text(session, cpu, {bits_of(range)});
   const std::string symbol = symbol_text(cpu.program(), range);
-  return dump_text(cpu, range) + (forced.empty() ? "" : "       " + forced + "\n") +
-         (symbol.empty() ? "" : "         " + symbol + "\n");
+  return dump_text(cpu, range) + forced_line(session, cpu, range) + (symbol.empty() ? "" : "         " + symbol + "\n");
+}
+
+std::string forced_line(const Session& session, const Cpu& cpu, const MemoryRange& range) {
+  const std::string forced = forced_text(session, cpu, {bits_of(range)});
+  if (forced.empty()) return {};
+  const Bytes in_program = range.bytes_in(cpu.state().image);
+  const bool is_as_forced = in_program == forcing::seen_outside(cpu.state(), range);
+  return fmt::format("       {}{}\n", forced,
+                     is_as_forced ? "" : "; in this scan the program has " + value_text(cpu.program(), range, in_program));
 }
 
 std::string forced_text(const Session& session, const Cpu& cpu, const std::vector<Bits>& places) {
@@ -151,7 +159,7 @@ std::string forced_text(const Session& session, const Cpu& cpu, const std::vecto
 }
 
 std::string value_of(const Cpu& cpu, const MemoryRange& range) {
-  return value_text(cpu.program(), range, range.bytes_in(cpu.state().image));
+  return value_text(cpu.program(), range, forcing::seen_outside(cpu.state(), range));
 }
 
 }  // namespace s7200::tools

@@ -41,6 +41,9 @@ std::string with_local_variables(Session& session, Words& words, std::optional<s
 /// Memory of a station with its symbol, and with what of it is forced.
 std::string memory_text(const Session& session, std::size_t station, const MemoryRange& range);
 
+/// A line of what of it is forced, and of what the program has there if that differs; or nothing.
+std::string forced_line(const Session& session, const Cpu& cpu, const MemoryRange& range);
+
 /// `  forced: VW10=5`, or nothing.
 std::string forced_text(const Session& session, const Cpu& cpu, const std::vector<Bits>& places);
 

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/cpu/units/forcing.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
@@ -14,11 +16,12 @@ namespace s7200::tools {
 namespace {
 
 std::string bytes_text(const State& state, const MemoryRange& range) {
+  const std::vector<std::uint8_t> bytes = forcing::seen_outside(state, range);
   std::string text;
   for (std::uint32_t i = 0; i < range.count; i += 16) {
     std::string hex, characters;
     for (std::uint32_t k = i; k < std::min(range.count, i + 16); ++k) {
-      const std::uint8_t byte = state.image[range.at + k];
+      const std::uint8_t byte = bytes[k];
       hex += fmt::format(" {:02x}", byte);
       characters += byte >= 32 && byte < 127 ? static_cast<char>(byte) : '.';
     }
@@ -29,9 +32,14 @@ std::string bytes_text(const State& state, const MemoryRange& range) {
 
 float real_at(const std::uint8_t* from) { return std::bit_cast<float>(load32(from)); }
 
-/// The bytes of object `i` of a range of words or double words.
-const std::uint8_t* place_of(const State& state, const MemoryRange& range, std::uint32_t i) {
-  return &state.image[range.at + i * (range.area == Area::AC ? 4 : s7200::bytes_of(range.width))];
+/// The bytes of object `i` of a range, from the left.
+std::array<std::uint8_t, 4> object_at(const State& state, const MemoryRange& range, std::uint32_t i) {
+  const std::uint32_t size = s7200::bytes_of(range.width);
+  const std::uint32_t at = range.at + i * (range.area == Area::AC ? 4 : size);
+  std::array<std::uint8_t, 4> bytes{};
+  std::copy_n(state.image.begin() + at, size, bytes.begin());
+  forcing::put_over(state, at, {bytes.data(), size});
+  return bytes;
 }
 
 bool used_as_real(const Cpu& cpu, const MemoryRange& range, std::uint32_t i) {
@@ -39,7 +47,8 @@ bool used_as_real(const Cpu& cpu, const MemoryRange& range, std::uint32_t i) {
 }
 
 std::string object_text(const Cpu& cpu, const MemoryRange& range, std::uint32_t i) {
-  const std::uint8_t* from = place_of(cpu.state(), range, i);
+  const auto bytes = object_at(cpu.state(), range, i);
+  const std::uint8_t* const from = bytes.data();
   if (range.width == Width::Word) {
     const std::uint16_t value = load16(from);
     return fmt::format("16#{:04X} {:>11}", value, static_cast<std::int16_t>(value));
@@ -68,16 +77,16 @@ std::string_view type_of(const MemoryRange& range) {
 }
 
 nlohmann::ordered_json value_json(const State& state, const MemoryRange& range, std::uint32_t i) {
+  const std::uint32_t bits = bits_at(state, range, i);
   switch (range.width) {
     case Width::Bit:
-      return state.image[range.at] >> range.bit & 1;
     case Width::Byte:
-      return state.image[range.at + i];
+      return bits;
     case Width::Word:
-      return static_cast<std::int16_t>(load16(place_of(state, range, i)));
+      return static_cast<std::int16_t>(bits);
     case Width::Double:
-      if (range.real) return real_json(real_at(place_of(state, range, i)));
-      return static_cast<std::int32_t>(load32(place_of(state, range, i)));
+      if (range.real) return real_json(std::bit_cast<float>(bits));
+      return static_cast<std::int32_t>(bits);
   }
   return nullptr;
 }
@@ -122,7 +131,7 @@ std::string hex_text(const Assignment& assignment) {
 
 std::string dump_text(const Cpu& cpu, const MemoryRange& range) {
   const State& state = cpu.state();
-  if (range.width == Width::Bit) return fmt::format("{:<8} {}\n", range.name_of(0), range.bytes_in(state.image)[0]);
+  if (range.width == Width::Bit) return fmt::format("{:<8} {}\n", range.name_of(0), bits_at(state, range, 0));
   if (range.width == Width::Byte) return bytes_text(state, range);
   std::string text;
   for (std::uint32_t i = 0; i < range.count; ++i)
@@ -131,10 +140,10 @@ std::string dump_text(const Cpu& cpu, const MemoryRange& range) {
 }
 
 std::uint32_t bits_at(const State& state, const MemoryRange& range, std::uint32_t i) {
-  const std::uint8_t* const from = place_of(state, range, i);
-  if (range.width == Width::Bit) return *from >> range.bit & 1;
-  if (range.width == Width::Byte) return *from;
-  return range.width == Width::Word ? load16(from) : load32(from);
+  const auto bytes = object_at(state, range, i);
+  if (range.width == Width::Bit) return bytes[0] >> range.bit & 1;
+  if (range.width == Width::Byte) return bytes[0];
+  return range.width == Width::Word ? load16(bytes.data()) : load32(bytes.data());
 }
 
 double number_at(const State& state, const MemoryRange& range, std::uint32_t i) {
@@ -145,13 +154,13 @@ double number_at(const State& state, const MemoryRange& range, std::uint32_t i) 
 }
 
 nlohmann::ordered_json dump_json(const Cpu& cpu, const MemoryRange& range) {
-  nlohmann::ordered_json json{{"type", type_of(range)}, {"hex", plain_hex(range.bytes_in(cpu.state().image))}};
+  nlohmann::ordered_json json{{"type", type_of(range)}, {"hex", plain_hex(forcing::seen_outside(cpu.state(), range))}};
   auto values = nlohmann::ordered_json::array(), reals = values;
   bool any_real = false;
   for (std::uint32_t i = 0; i < range.count; ++i) {
     values.push_back(value_json(cpu.state(), range, i));
     const bool real = !range.real && used_as_real(cpu, range, i);
-    reals.push_back(real ? real_json(real_at(place_of(cpu.state(), range, i))) : nullptr);
+    reals.push_back(real ? real_json(real_at(object_at(cpu.state(), range, i).data())) : nullptr);
     any_real |= real;
   }
   json["values"] = values;

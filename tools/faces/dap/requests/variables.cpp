@@ -8,6 +8,7 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/cpu/units/forcing.hpp"
 #include "interpreter/model/errors.hpp"
 #include "interpreter/model/ports.hpp"
 #include "interpreter/model/special_bits.hpp"
@@ -258,7 +259,7 @@ std::vector<Variable> variables_of(const serial::Simulation& simulation, const H
 
 Variable variable_of(const Cpu& cpu, const MemoryRange& range, const std::string& name) {
   return {.name = name,
-          .value = value_text(cpu.program(), range, range.bytes_in(cpu.state().image)),
+          .value = value_text(cpu.program(), range, forcing::seen_outside(cpu.state(), range)),
           .type = std::string(type_of(range)),
           .expression = name.substr(0, name.find(' ')),
           .memory = range.name_of(0),

@@ -1,6 +1,7 @@
 // memory: what must be in memory now.
 #include <utility>
 
+#include "interpreter/cpu/units/forcing.hpp"
 #include "tools/scenario/reading/memory_values.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/steps.hpp"
@@ -18,7 +19,7 @@ struct MemoryStep final : StepAction {
     run.count_check();
     const Cpu& cpu = run.plant()->cpu();
     for (const MemoryExpected& e : expected) {
-      const Bytes found = e.range.bytes_in(cpu.state().image);
+      const Bytes found = forcing::seen_outside(cpu.state(), e.range);
       if (e.fits(found)) continue;
       Finding finding = memory_finding(cpu.program(), e, found);
       finding.what = run.plant()->of_plc(finding.what);

@@ -327,8 +327,9 @@ memory that 'display' names, or the registers. Below: the prompt.)",
       {"force", "", "force [ADDRESS=VALUE…]", "hold points of I and Q, V and M memory, AI and AQ at a value; alone: list",
        R"(As a programming device forces: force I0.3=1 Q0.0=0 VW100=5. Inputs have the value when they are read, outputs
 when they are written (end of scan, immediate, STOP), memory after each program: in between the program may
-change it. Up to 16 values of memory: bytes, words, double words; AI and AQ words. Shown in red. Edges and
-counters see the terminal. The CPU keeps it without power; going back undoes it.)",
+change it, while print, expect and until see what is forced. Up to 16 values of memory: bytes, words, double
+words; AI and AQ words. Shown in red. Edges and counters see the terminal. The CPU keeps it without power; going
+back undoes it.)",
        commands::force, Takes::Forced},
       {"unforce", "", "unforce ADDRESS… | all", "release what is forced",
        "Inputs follow their terminals again, outputs their image; memory keeps what it has.", commands::unforce,
