@@ -62,6 +62,14 @@ TEST(Explanation, AMissingAnswerHasItsCauseInReportJsonAndJunit) {
   EXPECT_TRUE(has(to_junit({failed.report}), "JMP 255 in line 141"));
 }
 
+TEST(Explanation, OfMemoryItSaysWhatIsForced) {
+  const auto program = program_of("LD I0.0\n= Q0.0\nMEND\n");
+  const Failed input("  - force: {I0.0: 0}\n  - set: {I0.0: 1}\n  - wait: 20ms\n  - memory: {Q0.0: 1}\n", program);
+  EXPECT_TRUE(has(input.lines(), "LD I0.0: I0.0=0; I0.0 is forced)"));
+  const Failed output("  - force: {Q0.0: 0}\n  - set: {I0.0: 1}\n  - wait: 20ms\n  - memory: {Q0.0: 1}\n", program);
+  EXPECT_TRUE(has(output.lines(), "Q0.0 is forced to 0"));
+}
+
 TEST(Explanation, TheCommandThatOpensItIsPrinted) {
   const Failed failed("  - {send: 01 03 00 0a 00 01 00 00, expect: [0]}\n", slave());
   const std::string command = R"(s7200 debug file.yaml --only 'it'\''s one')";
@@ -93,10 +101,11 @@ TEST(Explanation, MemoryGoesBackToTheInputThatDecidedIt) {
 }
 
 TEST(Explanation, MemoryGoesBackToEachContactThatHoldsItOff) {
-  const auto program = program_of("LD I0.1\n= M0.0\nLD I0.2\n= M0.1\nLD SM0.0\n= M0.2\nLD I0.3\n= M0.3\n"
-                                  "LD M0.0\nO M0.1\nA M0.2\n= Q0.1\n"      // neither M0.0 nor M0.1
-                                  "LD M0.0\nO M0.2\nAN M0.1\nA M0.3\n= Q0.2\n"  // M0.3 alone, whatever M0.0 is
-                                  "LD M0.0\nA M0.2\nLD M0.1\nA M0.2\nOLD\n= Q0.3\nMEND\n");
+  const auto program = program_of(
+      "LD I0.1\n= M0.0\nLD I0.2\n= M0.1\nLD SM0.0\n= M0.2\nLD I0.3\n= M0.3\n"
+      "LD M0.0\nO M0.1\nA M0.2\n= Q0.1\n"           // neither M0.0 nor M0.1
+      "LD M0.0\nO M0.2\nAN M0.1\nA M0.3\n= Q0.2\n"  // M0.3 alone, whatever M0.0 is
+      "LD M0.0\nA M0.2\nLD M0.1\nA M0.2\nOLD\n= Q0.3\nMEND\n");
   const auto lines = [&](const std::string& bit) {
     return Failed("  - wait: 20ms\n  - memory: {" + bit + ": 1}\n", program).lines();
   };

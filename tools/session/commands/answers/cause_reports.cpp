@@ -92,10 +92,8 @@ Reply cause_of(Session& session, const MemoryRange& range, std::string_view name
   const std::string value = value_of(cpu, range);
   const auto lines = memory_cause(session.history, session.focus(), range, session.setup.stop_request);
   if (!lines) return interrupted(session);
-  const std::string forced = forced_text(session, cpu, {bits_of(range)});
   const std::string to_come = range.width == Width::Bit ? to_come_text(session, bits_of(range)) : "";
-  Reply reply{.text = fmt::format("{} is {}; {}\n{}{}{}", name, value, fmt::join(*lines, "\n  "), to_come, forced,
-                                  forced.empty() ? "" : "\n"),
+  Reply reply{.text = fmt::format("{} is {}; {}\n{}", name, value, fmt::join(*lines, "\n  "), to_come),
               .json = {{"name", name}, {"value", value}, {"causes", *lines}}};
   if (!to_come.empty()) reply.json["stillToCome"] = stl::trim(to_come);
   return reply;
@@ -109,7 +107,8 @@ Reply obstacles_to(Session& session, const Wish& wish, bool all) {
   if (!holds) return wrong(fmt::format("{}: {}", name, holds.why()));
   json["holds"] = *holds;
   if (*holds) {
-    const std::string values = wish.bit ? "" : fmt::format(": {}", wish.condition->places_text(cpu));
+    const std::string values =
+        wish.bit ? "" : fmt::format(": {}", wish.condition->places_text(cpu, Expression::SeenBy::Outside));
     return {.text = fmt::format("{} holds now{}\n", name, values), .json = std::move(json)};
   }
   const auto answer = why_not(session.history, session.focus(), wish, session.setup.stop_request);
