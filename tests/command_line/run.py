@@ -3469,6 +3469,19 @@ class Files(Case):
         done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"load {saved}; record {self.folder}/loaded.yaml")
         self.assertIn("loaded after power had been switched off", done.stderr)
 
+    def test_what_was_expected_before_power_went_off_is_recorded_too(self):
+        program = self.program("LD I0.0\n= Q0.0\nMEND\n", "power.stl")
+        session = "input I0.0=1; continue 100ms; expect Q0.0 = 1; power 1s; print Q0.0; continue 100ms; power; "
+        for end, expected in (("record", ["Q0.0: 16#1", "Q0.0: 16#0"]),
+                              ("continue 20ms; expect QB0 = 1; record", ["Q0.0: 16#1", "Q0.0: 16#0", "QB0: 16#01"]),
+                              ("back 2; continue 20ms; expect QB0 = 1; record", ["Q0.0: 16#1", "Q0.0: 16#0", "QB0: 16#01"])):
+            recorded = self.folder / "before.yaml"
+            done = self.ends(FINE, "debug", program, "-x", f"{session}{end} {recorded} !")
+            self.assertNotIn("left out", done.stdout)
+            text = recorded.read_text(encoding="utf-8")
+            self.assertEqual(re.findall(r"- memory: \{(.*)\}", text), expected, text)
+            self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
+
     def test_a_session_in_which_requests_were_given_up_is_recorded_as_a_scenario(self):
         ask = "send 01 03 00 0a 00 01 crc; "
         recorded = self.folder / "given_up.yaml"

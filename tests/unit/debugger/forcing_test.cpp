@@ -53,6 +53,44 @@ TEST(ForceCommand, PrintStatusAndWhoShowWhatIsForced) {
   EXPECT_TRUE(has(session("set VW10=3"), "VW10 keeps what is forced until 'unforce VW10'"));
 }
 
+TEST(ForceCommand, ChecksSeeWhatIsForcedAtEachMomentOfAScan) {
+  AtPrompt session(kCopy);
+  session("force Q0.0=1 VW10=7; scan 2; until 5");
+  ASSERT_EQ(session.state().image[image::kQ], 0) << "the program has written it in this scan";
+  ASSERT_EQ(session.vw(10), 1U);
+  session("expect Q0.0 = 1 and QB0 = 1 and VW10 = 7 and V11.0");
+  EXPECT_TRUE(has(session.error_of("expect Q0.0 = 0"), "does not hold here: Q0.0 is 1"));
+  EXPECT_EQ(session("print Q0.0"), "Q0.0     1\n         forced: Q0.0=1; in this scan the program has 0\n");
+  EXPECT_TRUE(has(session("print VB10:2"), " 00 07 "));
+  EXPECT_TRUE(has(session("print /d VW10"), "VW10     7\n"));
+  EXPECT_TRUE(has(session("print VW10 + 1"), "= 8"));
+  EXPECT_TRUE(has(session("values VW10"), "VW10     7\n"));
+  EXPECT_TRUE(has(session("display Q0.0"), "Q0.0     1\n"));
+  EXPECT_FALSE(has(session("print VW20"), "forced"));
+}
+
+TEST(ForceCommand, UntilIsAboutTheForcedOutputAndWhyNotSaysThatItIsForced) {
+  AtPrompt session(kCopy);
+  EXPECT_TRUE(has(session("force Q0.0=0; input I0.0=1; scan 3; until Q0.0 within 50ms"),
+                  "it is forced; 'unforce Q0.0' releases it"));
+  EXPECT_TRUE(has(session("until not Q0.0"), "holds now"));
+  EXPECT_TRUE(has(session("until QB0 = 1 within 50ms"), "QB0 = 1 does not hold: QB0 is 0"));
+  session("force Q0.0=1");
+  EXPECT_TRUE(has(session("until Q0.0"), "holds now"));
+}
+
+TEST(ForceCommand, ConditionsOfBreakpointsAreAboutWhatTheProgramFinds) {
+  AtPrompt session(kCopy);
+  session("force Q0.0=1; scan 2; break 3 if Q0.0 = 0; continue 100ms");
+  EXPECT_EQ(session.line(), 3U);
+}
+
+TEST(ForceCommand, WhySaysWhatOfItAndOfItsContactsIsForced) {
+  AtPrompt session(kCopy);
+  EXPECT_TRUE(has(session("force I0.0=0; input I0.0=1; scan 3; why Q0.0"), "I0.0 is forced"));
+  EXPECT_TRUE(has(session("force Q0.0=1; scan 2; why Q0.0"), "Q0.0 is forced to 1"));
+}
+
 TEST(ForceCommand, RefusesWhatACpuCannotForceAndSaysWhatItCan) {
   AtPrompt session(kCopy);
   EXPECT_TRUE(has(session.error_of("force M0.3=1"), "'M0.3=1' cannot be forced: the CPU forces points of I and Q"));

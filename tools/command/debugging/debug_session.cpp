@@ -65,7 +65,8 @@ class StepsOfSession {
     }
     if (!recording.complete) fail("what came over a bridge before power was switched off is forgotten");
     cut_until_.clear();
-    const std::size_t first = last_power_up_ = steps_.size();
+    const std::size_t first = steps_.size();
+    power_ups_.push_back(first);
     std::vector<HostFrames> from_hosts(hosts_.size());
     for (std::size_t i = 0; i < recording.now.actions; ++i) {
       const Action& action = recording.actions[i];
@@ -81,15 +82,17 @@ class StepsOfSession {
 
   /// Memory that was looked at is expected to be so again, after all that was done by then. A request that was sent at that
   /// instant has changed nothing, and its answer would come before the step after it: it is expected in front of that.
-  void expect(const SessionRecord::LookedAt& one) {
-    auto later = std::find_if(steps_.begin() + static_cast<std::ptrdiff_t>(last_power_up_), steps_.end(),
-                              [&](const SessionSteps::Step& step) {
-                                return step.at > one.at || (step.at == one.at && step.action >= one.actions);
-                              });
-    while (later != steps_.begin() + static_cast<std::ptrdiff_t>(last_power_up_) && std::prev(later)->send &&
-           std::prev(later)->at == one.at)
-      --later;
+  void expect(std::size_t power_up, const SessionRecord::LookedAt& one) {
+    const auto begin = steps_.begin() + static_cast<std::ptrdiff_t>(power_ups_[power_up]);
+    const auto end = power_up + 1 == power_ups_.size()
+                         ? steps_.end()
+                         : std::prev(steps_.begin() + static_cast<std::ptrdiff_t>(power_ups_[power_up + 1]));
+    auto later = std::find_if(begin, end, [&](const SessionSteps::Step& step) {
+      return step.at > one.at || (step.at == one.at && step.action >= one.actions);
+    });
+    while (later != begin && std::prev(later)->send && std::prev(later)->at == one.at) --later;
     steps_.insert(later, {.at = one.at, .expect = one.memory, .on = place(one.station)});
+    for (std::size_t next = power_up + 1; next < power_ups_.size(); ++next) ++power_ups_[next];
   }
 
   /// Why nothing of the session can be recorded; empty if something can.
@@ -200,7 +203,7 @@ class StepsOfSession {
   std::string why_nothing_;
   std::vector<std::string> left_out_{};
   Steps steps_{};
-  std::size_t last_power_up_ = 0;            // the first step after it
+  std::vector<std::size_t> power_ups_{};     // the first step after each
   std::map<std::string, Time> cut_until_{};  // by place, the end of the last character of a request that was given up
 };
 
@@ -213,7 +216,8 @@ Result<SessionSteps> steps_of(const SessionRecord& record, const Places& places)
     const SessionRecord::Station& station = record.stations[i];
     session.ends.push_back({steps.place(i), station.memory, station.stopped, station.fatal_code});
   }
-  for (const SessionRecord::LookedAt& one : record.looked_at) steps.expect(one);
+  for (std::size_t power_up = 0; power_up < record.looked_at.size(); ++power_up)
+    for (const SessionRecord::LookedAt& one : record.looked_at[power_up]) steps.expect(power_up, one);
   session.steps = steps.take();
   session.left_out = steps.left_out();
   return session;

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -96,8 +98,9 @@ class Session {
     MemoryRange range{};
   };
 
-  /// Memory that was printed or expected.
+  /// Memory that was printed or expected, since power came back or the session began.
   struct LookedAt {
+    std::shared_ptr<const PowerCycle> power{};
     std::size_t station = 0;
     Moment moment;
     MemoryRange range{};
@@ -163,9 +166,10 @@ class Session {
   std::string command{};    ///< under way, as written
   std::deque<Kept> kept{};  ///< newest last
   std::vector<Displayed> displayed{};
-  std::vector<LookedAt> looked_at{};  ///< since the last power-up, on whatever branch
-  FailedExpectation failed{};         ///< the last one
-  bool expectation_failed = false;    ///< by the last command
+  std::vector<LookedAt> looked_at{};  ///< on whatever branch
+  std::map<std::shared_ptr<const PowerCycle>, std::vector<SessionRecord::LookedAt>> looked_at_before{};  ///< power went off
+  FailedExpectation failed{};                                                                            ///< the last one
+  bool expectation_failed = false;  ///< by the last command
   bool quit_asked = false;
   int next_number = 1;  ///< of a breakpoint or watch
 

@@ -51,7 +51,7 @@ struct SessionRecord {
   };
 
   Recording session;                                        ///< up to its `now`
-  std::vector<LookedAt> looked_at{};                        ///< in their order
+  std::vector<std::vector<LookedAt>> looked_at{};           ///< by power-up, in their order
   std::vector<Station> stations;                            ///< all
   std::vector<std::optional<std::size_t>> host_stations{};  ///< by host port, one on its line; nothing if there is none
   std::optional<serial::Exchange> last{};                   ///< if it is over

@@ -6,6 +6,7 @@
 #include "interpreter/base/result.hpp"
 #include "interpreter/base/text/counted.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "tools/session/commands/looked_at.hpp"
 #include "tools/session/commands/rows/commands.hpp"
 #include "tools/session/commands/running.hpp"
 #include "tools/session/commands/saved_stops.hpp"
@@ -31,22 +32,6 @@ std::string newest_text(const Session& session) { return moment_text(session.his
 
 std::string no_files(const Session& session, std::string_view command) {
   return fmt::format("{}: {}", command, session.setup.why_no_files);
-}
-
-/// Object `i` of a range, with its value; a whole accumulator, which has no parts in a scenario.
-Assignment object_of(const State& state, const MemoryRange& range, std::uint32_t i) {
-  MemoryRange place = range;
-  place.count = 1;
-  const bool element = info(range.area).element != 0;
-  place.number = range.number + i * (element ? 1 : s7200::bytes_of(range.width));
-  place.at = range.at + i * (element ? info(range.area).element : s7200::bytes_of(range.width));
-  if (range.area == Area::AC) {
-    place.at -= 4 - s7200::bytes_of(range.width);
-    place.width = Width::Double;
-  }
-  std::uint32_t value = 0;
-  for (const std::uint8_t byte : place.bytes_in(state.image)) value = value << 8 | byte;
-  return {place, value};
 }
 
 /// `FILE [!]`: where a file goes that does not replace another one, unless `!` says so. It has all of `wanted` but the path.
@@ -102,24 +87,6 @@ SessionRecord::Station record_of(const Session& session, std::size_t number) {
   for (const auto& [station, range] : session.displayed)
     for (std::uint32_t i = 0; i < range.count && station == number; ++i) record.memory.push_back(object_of(state, range, i));
   return record;
-}
-
-/// What was printed or expected on the way to where it stands, as far as it is so there still.
-std::vector<SessionRecord::LookedAt> looked_at_here(Session& session) {
-  const Moment here = session.history.now();
-  std::vector<SessionRecord::LookedAt> all;
-  for (const auto& [station, moment, range, bytes] : session.looked_at) {
-    if (moment > here) continue;
-    session.history.go_to(moment);
-    const State& state = session.stations[station].simulation->cpu().state();
-    if (session.history.now() != moment || range.bytes_in(state.image) != bytes) continue;
-    SessionRecord::LookedAt one{.station = station, .at = moment.time, .actions = moment.actions, .memory = {}};
-    for (std::uint32_t i = 0; i < range.count; ++i) one.memory.push_back(object_of(state, range, i));
-    all.push_back(std::move(one));
-  }
-  session.history.go_to(here);
-  std::ranges::stable_sort(all, {}, &SessionRecord::LookedAt::at);
-  return all;
 }
 
 std::optional<std::size_t> station_at_host(const Session& session, std::size_t host) {
@@ -199,6 +166,7 @@ Reply load(Session& session, const Words& arguments) {
   }
   remember(session, place);
   session.looked_at.clear();
+  session.looked_at_before.clear();
   note_new_branch(session);
   if (const std::size_t added = add_loaded(session, *std::move(stops)))
     session.said << fmt::format("breakpoints and watches of that session: {}; 'break' lists them\n", added);
@@ -225,7 +193,7 @@ Reply record(Session& session, const Words& arguments) {
   for (std::size_t number = 0; number < session.stations.size(); ++number)
     record.stations.push_back(record_of(session, number));
   record.last = last_exchange(session);
-  record.looked_at = looked_at_here(session);
+  record.looked_at = looked_at_since_the_beginning(session);
   const auto left_out = session.setup.write_scenario(record, *to);
   if (!left_out) return wrong(fmt::format("cannot record this session: {}", left_out.why()));
   for (const std::string& what : *left_out) session.said << fmt::format("left out: {}\n", what);

@@ -5,6 +5,7 @@
 
 #include "interpreter/base/text/text.hpp"
 #include "tools/session/causes/line/two_masters.hpp"
+#include "tools/session/commands/looked_at.hpp"
 #include "tools/session/commands/memory_words.hpp"
 #include "tools/session/commands/rows/commands.hpp"
 #include "tools/session/commands/running.hpp"
@@ -165,8 +166,9 @@ Reply power(Session& session, const Words& arguments) {
                                      session.is_system() ? "all " : "", session.is_system() ? "all " : "")));
   const std::string requests = requests_under_way(session);
   remember(session);
+  auto looked_at = looked_at_here(session);
   session.history.power_cycle(lost, *off);
-  session.looked_at.clear();
+  session.looked_at_before[session.history.here().branch->power] = std::move(looked_at);
   session.said << fmt::format(
       "power was off{}: {}\n", *off == 0 ? "" : " for " + format_duration(*off),
       lost ? "the EEPROM is left, RAM and clock are lost" : "retentive memory, EEPROM and clock are kept");

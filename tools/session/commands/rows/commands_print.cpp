@@ -7,6 +7,7 @@
 #include "interpreter/base/text/text.hpp"
 #include "tools/session/causes/expression.hpp"
 #include "tools/session/commands/answers/cause_reports.hpp"
+#include "tools/session/commands/looked_at.hpp"
 #include "tools/session/commands/memory_words.hpp"
 #include "tools/session/commands/rows/commands.hpp"
 #include "tools/session/words/element_text.hpp"
@@ -66,13 +67,6 @@ std::string number_text(const Value& value, const PrintForm* form) {
   return value.real ? number_text(value) : fmt::format("{} ({})", number_text(value), hex_text(*bits, Width::Double));
 }
 
-/// A test of this session expects it to be so again.
-void note_looked_at(Session& session, const Place& place) {
-  const Cpu& cpu = session.cpu();
-  if (const auto range = range_now(place, cpu))
-    session.looked_at.push_back({session.focus(), session.history.now(), *range, range->bytes_in(cpu.state().image)});
-}
-
 /// {"name": "VW100", "address": "VW100", "value": "16#0005 (5)"}, with what it says added to the text.
 Json print_place(Session& session, const Place& place, const std::string& name, const PrintForm* form, std::string& text) {
   const Cpu& cpu = session.cpu();
@@ -84,8 +78,7 @@ Json print_place(Session& session, const Place& place, const std::string& name, 
   note_looked_at(session, place);
   if (place.pointer) text += fmt::format("{} is {}\n", name, range->name_of(0));
   text += range_text(cpu, *range, form);
-  if (const std::string forced = forced_text(session, cpu, {bits_of(*range)}); !forced.empty())
-    text += "       " + forced + '\n';
+  text += forced_line(session, cpu, *range);
   if (const std::string symbol = symbol_text(cpu.program(), *range); !symbol.empty()) text += "         " + symbol + '\n';
   text += elements_text(cpu, *range) + special_text(cpu, *range);
   return {{"name", name}, {"address", range->name_of(0)}, {"value", value_of(cpu, *range)}};
@@ -120,7 +113,7 @@ Reply print(Session& session, const Words& arguments) {
   const auto expression = Expression::parse(joined(words), program);
   if (!expression) return wrong(has_operator(words) ? expression.why() : why);
   for (const Place& place : expression->places()) note_looked_at(session, place);
-  const auto value = expression->value(session.cpu());
+  const auto value = expression->value(session.cpu(), Expression::SeenBy::Outside);
   const std::string number = value ? number_text(*value, form) : "";
   return {.text = fmt::format("{} {}\n", stl::printable(expression->text()),
                               value ? "= " + number : "cannot be computed: " + value.why()),
@@ -131,14 +124,14 @@ Reply expect(Session& session, const Words& arguments) {
   if (arguments.empty()) return wrong(expects("expect", "what must hold, for example: expect VW20 = 5 and M0.1"));
   const auto expression = Expression::parse(joined(arguments), session.program());
   if (!expression) return wrong(expression.why());
-  const auto value = expression->value(session.cpu());
+  const auto value = expression->value(session.cpu(), Expression::SeenBy::Outside);
   for (const Place& place : expression->places()) note_looked_at(session, place);
   if (value && value->truth()) return {};
   session.expectation_failed = true;
   session.failed = {session.focus(), session.history.now(), {}};
   for (const Place& place : expression->places())
     if (const auto range = range_now(place, session.cpu())) session.failed.memory.push_back(*range);
-  std::string found = expression->places_text(session.cpu());
+  std::string found = expression->places_text(session.cpu(), Expression::SeenBy::Outside);
   if (!value && found.find(value.why()) == std::string::npos)
     found += fmt::format("{}{}", found.empty() ? "" : "; ", value.why());
   return wrong(
