@@ -41,6 +41,19 @@ TEST(Why, ACharacterWhoseEventIsNotAttachedLeadsToTheInstructionThatDetachedIt) 
   EXPECT_NE(session.state().attached[8], kNotAttached) << "in front of it";
 }
 
+TEST(Why, AnAnswerThatAFaultHoldsBackLongerThanTheMasterWaitsIsNamedOnceForItAndForTheNextRequest) {
+  AtPrompt session(kStopsListening);
+  const std::string fault = ", and no character of it has left so far: fault answer:delay=9s: 1×\n";
+  session("continue 50ms; break unanswered; fault answer:delay=9s; send 41; continue");
+  EXPECT_TRUE(has(session("why"), "the PLC has been sending since 51."));
+  EXPECT_TRUE(has(session("why"), fault));
+  const std::string later =
+      ", and no character of it has left so far; it does not listen meanwhile: fault answer:delay=9s: 1×\n";
+  session("continue 3s; send 42; continue");
+  EXPECT_TRUE(has(session("why"), "the PLC has been sending since 51."));
+  EXPECT_TRUE(has(session("why"), later));
+}
+
 TEST(Why, AnEventThatWasNeverAttachedIsNamed) {
   AtPrompt session("LD SM0.1\nMOVB 9, SMB30\nMEND\n");
   session("continue 50ms; break unanswered; send 41; continue");

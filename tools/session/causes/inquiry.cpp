@@ -59,9 +59,19 @@ std::optional<Time> Inquiry::when_stopped() const {
   return find_last_stop(history_, station_, stop_request_);
 }
 
+/// What a fault holds back may have begun long before the request.
+std::optional<Time> Inquiry::sending_since() const {
+  const std::uint8_t port = this->port();
+  if (!has_unanswered() || !here().cpu().state().port[port].transmitting) return {};
+  const TurnSearch search = find_last_turn(
+      history_, station_, [port](const State& state) { return state.port[port].transmitting; }, stop_request_);
+  return search.turn ? std::optional(search.turn->at) : std::nullopt;
+}
+
 bool Inquiry::hear_the_witness() {
   Time from = request_ ? std::min(since_, request_->start) : since_;
   if (stopped_) from = std::min(from, *stopped_);
+  if (const auto sending = sending_since()) from = std::min(from, *sending);
   if (!history_.go_to(from - std::min(from, kEarlier))) return false;
   witness_.line.begin();
   const bool heard = history_.play(witness_, start_);

@@ -79,6 +79,7 @@ class Inquiry {
  private:
   Time beginning() const;
   std::optional<Time> when_stopped() const;
+  std::optional<Time> sending_since() const;
   bool goes_back_to_frames() const;
   Moment in_front_of(const InstructionRecord& from, std::uint32_t op, bool in_interrupt);
 

@@ -83,6 +83,7 @@ std::vector<TraceLine> LineAccount::lost(const AskedRequest& request) const {
   };
   const bool by_itself = request.plc() == station_;
   if (request.under_way || request.end == 0) return all;
+  if (auto held = answer_not_begun(request)) return add(std::move(held)), all;
   if (freeport().transmitting && !by_itself) return add(answer_going_on(request)), all;
   const Heard heard = heard_of_answer(request);
   const Sent answer = answer_to(request, heard);
@@ -162,6 +163,22 @@ std::optional<TraceLine> LineAccount::answer_going_on(const AskedRequest& reques
   return TraceLine{answer.to, fmt::format("the PLC has been sending since {}, {} so far, and {} heard {}{}",
                                           moment_text(answer.from), characters_text(answer.bytes.size()), request.by,
                                           received_text(heard), reasons(request, answer))};
+}
+
+/// Its XMT was executed, and no character of it has left: a fault holds it back, or whoever has asked waits no longer than
+/// the first one takes. To another request the PLC does not listen meanwhile.
+std::optional<TraceLine> LineAccount::answer_not_begun(const AskedRequest& request) const {
+  if (!request.unanswered || request.plc() == station_ || !freeport().transmitting) return {};
+  const auto is_held = [&](const Sent& sent) { return sent.is_of_plc(station_) && sent.goes_on && sent.bytes.empty(); };
+  const auto held = std::ranges::find_if(traffic_.sent(), is_held);
+  if (held == traffic_.sent().end() || held->break_by) return {};
+  Sent answer = *held;
+  answer.to = here().system().now();
+  const bool is_of_another = answer.from < request.end;
+  const std::vector<std::string> faults = faults_in(request, answer);
+  return TraceLine{answer.to, fmt::format("the PLC has been sending since {}, and no character of it has left so far{}{}",
+                                          moment_text(answer.from), is_of_another ? "; it does not listen meanwhile" : "",
+                                          faults.empty() ? "" : fmt::format(": {}", fmt::join(faults, "; ")))};
 }
 
 /// A break has no characters.

@@ -65,6 +65,7 @@ class LineAccount final {
   Heard heard_of_answer(const AskedRequest& request) const;
   std::optional<TraceLine> lost_answer(const AskedRequest& request, Heard heard, const Sent& answer) const;
   std::optional<TraceLine> answer_going_on(const AskedRequest& request) const;
+  std::optional<TraceLine> answer_not_begun(const AskedRequest& request) const;
   std::optional<TraceLine> break_instead(const AskedRequest& request) const;
   std::optional<TraceLine> without_pause(const AskedRequest& request) const;
   std::optional<TraceLine> lost_request(const AskedRequest& request) const;
