@@ -120,6 +120,8 @@ TEST(Why, APortThatWasNeverInFreeportModeIsNamedAlsoIfPpiTakesTheCharactersForIt
                   "the port is in PPI mode, and this is not a PPI frame; nothing has written SMB30 since power-up\n"));
   session("continue 200ms; send 68 05 05 68; continue");  // the head of a PPI frame
   EXPECT_TRUE(has(session("why"), "no answer: port 0 is in PPI mode; nothing has written SMB30 since power-up\n"));
+  session("continue 200ms; send 10 05 00 49 4e 16; continue");  // the status of station 5
+  EXPECT_TRUE(has(session("why"), "the request was for PPI station 5; port 0 is station 2\n"));
 }
 
 TEST(Why, SMB30SetFromOutsideIsNamed) {

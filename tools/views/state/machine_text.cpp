@@ -248,6 +248,18 @@ std::string start_text(const MessageReceiver& message, const ReceiveChoices& cho
   return text.empty() ? "any character" : text;
 }
 
+/// What has to come before a message can start has come; empty if it has not, or if nothing has to.
+std::string begun_text(const MessageReceiver& message, const ReceiveChoices& choices) {
+  using namespace sm::message;
+  const bool asks_idle = (message.control & kFromIdleLine) != 0 && message.idle_time > 0;
+  const bool asks_break = (message.control & kFromBreak) != 0;
+  const bool idle = asks_idle && message.was_idle, had_break = asks_break && message.had_break;
+  const bool lacks_one = asks_idle && asks_break && !choices.idle_or_break && idle != had_break;
+  if (lacks_one || !(idle || had_break)) return {};
+  return had_break ? "the break before it has come"
+                   : fmt::format("the line has been idle for {}", format_duration(message.idle_time));
+}
+
 std::string end_text(const MessageReceiver& message) {
   using namespace sm::message;
   std::string text;
@@ -266,6 +278,10 @@ std::string awaited_text(const MessageReceiver& message, const ReceiveChoices& c
     case MessageReceiver::Phase::Off:
       return {};
     case MessageReceiver::Phase::Search:
+      if (const std::string begun = begun_text(message, choices); !begun.empty())
+        return fmt::format(
+            "the first character of a message{}; {}",
+            message.control & sm::message::kFromStart ? fmt::format(", 16#{:02X}", message.start_character) : "", begun);
       return "the start of a message: " + start_text(message, choices);
     case MessageReceiver::Phase::Message:
       return "the end of its message: " + end_text(message);

@@ -21,7 +21,8 @@ std::string event_text(std::uint8_t event);
 std::string waiting_text(const QueuedInterrupt& entry);
 
 /// What the receive message service waits for: `the start of a message: an idle line of 5 ms, then the character 16#02`,
-/// `the end of its message: the character 16#0D or 10 characters (2 so far)`; empty if it is off.
+/// `the first character of a message, 16#02; the break before it has come`, `the end of its message: the character 16#0D or
+/// 10 characters (2 so far)`; empty if it is off.
 std::string awaited_text(const MessageReceiver& message, const ReceiveChoices& choices);
 
 /// The place of the CPU: `412.345678 ms  scan 7  INT 123  S0=1`, and the line it stands in front of: `>  1242  INCB VB101

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "interpreter/base/ppi_frame.hpp"
 #include "interpreter/model/ports.hpp"
 #include "tools/session/causes/expression.hpp"
 #include "tools/session/causes/inquiry.hpp"
@@ -97,14 +98,29 @@ Keeper what_kept_in_ppi_mode(Inquiry& inquiry, const TraceRecord& ignored) {
   return what_left_freeport(inquiry, ignored.port, ignored.at);
 }
 
-/// RCV had not found the start of its message when the character had ended.
+/// A break that RCV asks for is dropped too: with it the start of the message has come. Leaves the simulation where it came.
+bool is_awaited_break(Inquiry& inquiry, const TraceRecord& untaken) {
+  if (untaken.kind != TraceKind::CharacterDropped || !untaken.framing_error || untaken.byte != 0) return false;
+  if (!inquiry.history().go_to(untaken.at)) return inquiry.answers.interrupted = true, false;
+  return (inquiry.here().cpu().state().port[untaken.port].message.control & sm::message::kFromBreak) != 0;
+}
+
+/// RCV had not found the start of its message when the character had ended; after a break that it asks for it may have gone
+/// on since.
 Keeper what_was_searched(Inquiry& inquiry, const TraceRecord& dropped) {
-  if (!inquiry.history().go_to(dropped.at)) return inquiry.answers.interrupted = true, Keeper{};
+  const bool is_awaited = is_awaited_break(inquiry, dropped);
+  if (!inquiry.history().go_to(is_awaited ? inquiry.start().time : dropped.at))
+    return inquiry.answers.interrupted = true, Keeper{};
   const MessageReceiver& message = inquiry.here().cpu().state().port[dropped.port].message;
   if (message.phase != MessageReceiver::Phase::Search) return {.text = ignored_because(dropped)};
   Keeper keeper = inquiry.kept_by_rcv(dropped.port);
   keeper.text = "RCV waits for " + keeper.text;
   return keeper;
+}
+
+/// Whether RCV has found the start of its message by now.
+bool has_begun_since(Inquiry& inquiry, std::uint8_t port) {
+  return inquiry.here_at_start().cpu().state().port[port].message.phase != MessageReceiver::Phase::Search;
 }
 
 /// The reason why nobody got the character, with what has detached their event, ended the last RCV or left Freeport mode,
@@ -120,9 +136,19 @@ Keeper what_kept(Inquiry& inquiry, const TraceRecord& untaken) {
   return keeper;
 }
 
-/// PPI takes characters for its own as long as they may be a frame of it.
+/// PPI takes characters for its own as long as they may be a frame of it. One for this station it has heard; why it gives no
+/// answer to that is not known here.
 void find_port_in_ppi_mode(Inquiry& inquiry) {
   const AskedRequest& request = *inquiry.request();
+  if (const auto body = ppi::body_of(request.frame)) {
+    const std::uint8_t own = inquiry.here().cpu().state().station[request.port];
+    if (body->destination != own)
+      inquiry.add(
+          request.end,
+          fmt::format("the request was for PPI station {}; port {} is station {}", body->destination, request.port, own),
+          {});
+    return;
+  }
   const Keeper keeper = what_left_freeport(inquiry, request.port, request.end);
   inquiry.add(request.end, fmt::format("no answer: port {} is in PPI mode{}", request.port, keeper.text), keeper);
 }
@@ -132,8 +158,10 @@ void find_port_in_ppi_mode(Inquiry& inquiry) {
 void find_characters_untaken(Inquiry& inquiry) {
   for (const auto& [first, characters, end] : inquiry.witness().line.untaken()) {
     if (first.at < inquiry.since()) continue;
+    if (is_awaited_break(inquiry, first) && has_begun_since(inquiry, first.port)) continue;
     const Keeper kept = what_kept(inquiry, first);
-    inquiry.add(first.at, inquiry.left_text({.characters = characters, .since = first.since, .decided_by = kept.text}), kept);
+    inquiry.add(first.at, inquiry.left_text({.characters = characters, .since = first.since, .decided_by = kept.text}),
+                kept);
   }
   if (!inquiry.has_unanswered() || !inquiry.answers.unanswered.empty()) return;
   if (!inquiry.history().go_to(inquiry.request()->end)) return void(inquiry.answers.interrupted = true);
