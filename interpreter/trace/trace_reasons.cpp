@@ -241,6 +241,12 @@ std::string TraceReasons::contacts_text(const std::vector<InstructionRecord>& co
   return text;
 }
 
+std::string TraceReasons::power_behind(const std::vector<InstructionRecord>& contacts) {
+  std::string power;
+  for (const InstructionRecord& contact : contacts) power += contact.top ? '1' : '0';
+  return power;
+}
+
 std::string TraceReasons::text_of(const Decision& decision) const {
   if (decision.by_contacts) {
     const std::string first = line_of(decision.contacts.front().op), last = line_of(decision.contacts.back().op);
@@ -280,7 +286,13 @@ std::optional<TraceReasons::Decision> TraceReasons::decision() const {
 
 TraceReasons::Cause TraceReasons::cause_of(const Decision& decision) const {
   const InstructionRecord& first = decision.by_contacts ? decision.contacts.front() : decision.by;
-  return {text_of(decision), decision.by, first, decision.by_contacts, decision.in_interrupt, decision.contacts};
+  return {.text = text_of(decision),
+          .by = decision.by,
+          .first = first,
+          .contacts = decision.by_contacts,
+          .in_interrupt = decision.in_interrupt,
+          .looked_at = decision.contacts,
+          .power = power_behind(decision.contacts)};
 }
 
 std::optional<TraceReasons::Cause> TraceReasons::cause_of(const std::optional<Decision>& decision) const {
@@ -291,7 +303,10 @@ std::optional<TraceReasons::Cause> TraceReasons::cause_of(const std::optional<De
 std::optional<TraceReasons::Cause> TraceReasons::cause_of(const Frame& frame) const {
   if (frame.kept_by.empty()) return cause_of(frame.led_by);
   Cause cause = cause_of(frame.kept_by.front());
-  for (auto one = frame.kept_by.begin() + 1; one != frame.kept_by.end(); ++one) cause.text += "; " + text_of(*one);
+  for (auto one = frame.kept_by.begin() + 1; one != frame.kept_by.end(); ++one) {
+    cause.text += "; " + text_of(*one);
+    cause.power += power_behind(one->contacts);
+  }
   return cause;
 }
 

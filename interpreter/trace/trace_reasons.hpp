@@ -53,6 +53,7 @@ class TraceReasons {
     bool contacts = false;    ///< that are in front of it in its own rung
     bool in_interrupt = false;
     std::vector<InstructionRecord> looked_at{};  ///< the contacts in front of the jump, or those of the rung
+    std::string power{};  ///< `0`, `1`: the power flow behind each contact in the text, whatever values made it so
   };
 
   /// Characters that the program leaves without an answer: it attaches the routine again that got the first of them, or
@@ -190,6 +191,7 @@ class TraceReasons {
   std::string line_of(std::uint32_t op) const;
   std::string text_of(const Decision& decision) const;
   std::string contacts_text(const std::vector<InstructionRecord>& contacts) const;
+  static std::string power_behind(const std::vector<InstructionRecord>& contacts);
   Unanswered unanswered(const Frame& frame, const std::optional<Cause>& cause) const;
   std::optional<Unanswered> taken(const Reception& reception, Time since) const;
   bool is_own(const InstructionRecord& contact) const;

@@ -3793,6 +3793,10 @@ class Files(Case):
         unanswered = self.json(FAILED, "send", SLAVE, *frames, "--timeout", "200ms", "--json")["unanswered"]
         self.assertEqual([one["requests"] for one in unanswered], [2, 1])
         self.assertEqual([one["first"] for one in unanswered], ["0103000a00010000", "0203000a0001a43b"])
+        several = self.program("LD SM0.1\nMOVB 9, SMB30\nATCH 0, 8\nENI\nMOVB 2, VB200\nMEND\nINT 0\nLDB= SMB2, 16#42\nLDN I0.0\nALD\nXMT VB200, 0\n"
+                               "LDB= SMB2, 16#43\nA M0.0\nXMT VB200, 0\nRETI\n", "several.stl")
+        unanswered = self.json(FAILED, "send", several, "44", "42", "43", "45", "--set", "I0.0=1", "--timeout", "50ms", "--json")["unanswered"]
+        self.assertEqual([(one["first"], one["requests"]) for one in unanswered], [("44", 2), ("42", 1), ("43", 1)])
         many = self.ends(FAILED, "send", SLAVE, *["02 03 00 0a 00 01 a4 3b"] * 52, "--timeout", "10ms").stdout
         self.assertIn("why 50 requests got no answer", many)
         self.assertIn("2 requests more got no answer, for which no cause was looked for\n", many)

@@ -28,6 +28,7 @@ struct TraceLine {
   Time at = 0;
   std::string text;      ///< without the time
   bool trouble = false;  ///< an error, what was lost or not wanted, a frame without an answer
+  std::string power{};   ///< of a frame without an answer: TraceReasons::Cause::power
 };
 
 /// It must be told every record and every instruction, in their order.

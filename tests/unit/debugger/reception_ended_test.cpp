@@ -108,8 +108,8 @@ const std::string kOnlyWithEnd =
     "RETI\n";
 
 TEST(ReceptionEnded, ARequestThatATimeOrADamagedCharacterHasEndedSaysSo) {
-  for (const auto& [sent, ended] : std::vector<std::pair<std::string, std::string>>{
-           {"41 42", "16#04 (the time has passed)"}, {"41 42p", "16#01 (a bad character)"}}) {
+  for (const auto& [sent, ended] : std::vector<std::pair<std::string, std::string>>{{"41 42", "16#04 (the time has passed)"},
+                                                                                    {"41 42p", "16#01 (a bad character)"}}) {
     AtPrompt session = session_of_cpu_224(kOnlyWithEnd);
     session("continue 50ms; break unanswered; send " + sent + "; continue 500ms");
     const std::string text = session("why");
@@ -119,12 +119,47 @@ TEST(ReceptionEnded, ARequestThatATimeOrADamagedCharacterHasEndedSaysSo) {
   }
 }
 
+TEST(ReceptionEnded, ARequestThatItsCountHasEndedEarlySaysWhatKeptTheAnswerAndWhatTookNoMore) {
+  AtPrompt session = session_of_cpu_224(test::changed(kOnlyWithEnd, "MOVB 10, SMB94", "MOVB 2, SMB94"));
+  session("continue 50ms; break unanswered; send 41 42 43 44; continue 500ms");
+  const std::string text = session("why");
+  EXPECT_TRUE(has(text, "no answer to 2 characters since 50.")) << text;
+  EXPECT_TRUE(has(text,
+                  ": RCV took them, and nothing was sent since: XMT VB100, 0 in line 15, without power flow (LDB= SMB86, "
+                  "16#20: SMB86=16#02)\n"))
+      << text;
+  EXPECT_TRUE(has(text, "no answer to 2 characters since 52.")) << text;
+  EXPECT_TRUE(has(text, "because 2 characters came, as many as SMB94 allows; ")) << text;
+}
+
+TEST(ReceptionEnded, AnRcvThatIsNotEnabledReceivesNothing) {
+  AtPrompt session = session_of_cpu_224(test::changed(kOnce, "MOVB 16#E0, SMB87", "MOVB 16#60, SMB87"));
+  session("continue 50ms; break unanswered; send 41 42 0d; continue 1s");
+  EXPECT_TRUE(
+      has(session("why"), ", received nothing because SM87.7 is 0: SMB87 = 16#60; the next would be started by RCV "));
+}
+
+TEST(ReceptionEnded, ABreakThatStartsTheMessageIsNotWaitedForAnyMore) {
+  const std::string text = test::changed(test::changed(kOnlyWithEnd, "MOVB 16#E4, SMB87", "MOVB 16#A2, SMB87"),
+                                         "MOVB 16#49, SMB30", "MOVB 16#09, SMB30");
+  for (const auto& [length, awaited] : std::vector<std::pair<std::string, std::string>>{
+           {"40bit", "RCV waits for the first character of a message; the break before it has come"},
+           {"12bit", "RCV took it and waits for the end of its message: the character 16#0D or 10 characters (1 so far)"}}) {
+    AtPrompt session = session_of_cpu_224(text);
+    session("continue 50ms; break unanswered; fault break:character=1,length=" + length + "; send 41 0d; continue 500ms");
+    const std::string why = session("why");
+    EXPECT_TRUE(has(why, awaited)) << length;
+    EXPECT_FALSE(has(why, "the start of a message: a break")) << length;
+  }
+}
+
 TEST(ReceptionEnded, WhoCouldStartTheNextIsSaidOfEachRcv) {
   AtPrompt session = session_of_cpu_224(kOnlyWithEnd);
   session("continue 50ms; send 41 42; continue 500ms; send cancel; break unanswered; send 41 43 0d; continue");
   const std::string text = session("why");
   EXPECT_TRUE(has(text, "the next would be started by RCV VB100, 0 in line 11, which had no power flow at ")) << text;
-  EXPECT_TRUE(has(text, "; or by RCV VB100, 0 in line 19: INT 1, which serves event 9, has not executed it since\n")) << text;
+  EXPECT_TRUE(has(text, "; or by RCV VB100, 0 in line 19: INT 1, which serves event 9, has not executed it since\n"))
+      << text;
 }
 
 TEST(ReceptionEnded, AnInterruptRoutineThatNoEventCallsStartsNothing) {

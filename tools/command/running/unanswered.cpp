@@ -80,7 +80,7 @@ UnansweredRequests Unanswered::explained(Time timeout) {
         if (!why) break;
         const std::size_t number = causes.number_of(*why);
         if (number == all.causes.size())
-          all.causes.push_back({.first = request.frame, .at = request.at, .why = std::move(*why)});
+          all.causes.push_back({.first = request.frame, .at = request.at, .why = texts_of(*why)});
         ++all.causes[number].requests;
       }
   }
@@ -167,7 +167,7 @@ void UnansweredOnBridge::explain(History& history, StopToken stop, UnansweredReq
     if (!why) return;
     if (why->empty()) continue;
     const std::size_t number = causes.number_of(*why);
-    if (number == all.causes.size()) all.causes.push_back({.first = frame.bytes, .at = frame.from, .why = std::move(*why)});
+    if (number == all.causes.size()) all.causes.push_back({.first = frame.bytes, .at = frame.from, .why = texts_of(*why)});
     ++all.causes[number].requests;
   }
 }

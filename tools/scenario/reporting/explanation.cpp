@@ -36,7 +36,9 @@ std::optional<std::vector<std::string>> reasons_of(History& history, Time timeou
   if (finding.memory) return memory_cause(history, finding.station, *finding.memory, stop);
   if (is_about_a_time(finding)) return latency_cause(history, finding.station, *finding.exchange, stop);
   if (!is_about_an_answer(finding)) return {};
-  return causes_of_no_answer(history, finding.station, serial::bytes_of(finding.exchange->request), timeout, stop);
+  const auto causes =
+      causes_of_no_answer(history, finding.station, serial::bytes_of(finding.exchange->request), timeout, stop);
+  return causes ? std::optional(texts_of(*causes)) : std::nullopt;
 }
 
 }  // namespace

@@ -55,8 +55,7 @@ std::string time_text(const TraceRecord& end, const Settings& settings) {
 std::string damage_text(const std::optional<TraceRecord>& character) {
   if (!character) return "a character was damaged, or the line had a break";
   if (character->framing_error && character->byte == 0) return "the line had a break, or a 00 had a framing error";
-  return fmt::format("the character {:02x} had a {} error", character->byte,
-                     character->parity_error ? "parity" : "framing");
+  return fmt::format("the character {:02x} had a {} error", character->byte, character->parity_error ? "parity" : "framing");
 }
 
 /// Why a message ended as it did (facts 10.3).
@@ -89,8 +88,11 @@ std::string ended_text(const LastReception& last, const State& state, std::uint8
     return fmt::format("ended at {} with {} = 16#{:02X} because {}", moment_text(last.end->at), settings.name(0),
                        last.end->byte, reason_text(last, settings));
   }
-  return last.abandoned ? fmt::format("{} at {}", abandoned_text(*last.abandoned), moment_text(last.abandoned->at))
-                        : "is over";
+  if (last.abandoned) return fmt::format("{} at {}", abandoned_text(*last.abandoned), moment_text(last.abandoned->at));
+  const Settings settings(state, port);
+  if (settings.has(kEnable)) return "is over";
+  return fmt::format("received nothing because {} is 0: {} = 16#{:02X}", settings.enable(), settings.name(kControl),
+                     settings.byte(kControl));
 }
 
 bool is_rcv(const Op& op, std::uint8_t port) { return op.instruction->mnemonic == "RCV" && op[1].at == port; }
@@ -145,14 +147,14 @@ Keeper what_ended_receiving(Inquiry& inquiry, const TraceRecord& ignored) {
   inquiry.answers.interrupted |= search.interrupted;
   if (search.interrupted) return {};
   if (!search.reception)
-    return {.text = fmt::format("; none was executed {}; {}", since_oldest_text(history),
-                                could_start_text(inquiry, port, 0))};
+    return {.text =
+                fmt::format("; none was executed {}; {}", since_oldest_text(history), could_start_text(inquiry, port, 0))};
   const LastReception& last = *search.reception;
   history.go_to(last.moment);
   const std::string ended = ended_text(last, inquiry.here().cpu().state(), port);
   LastDecision by{last.moment, named_in_sentence(last.by.op, inquiry.program()), last.by};
-  std::string text = fmt::format("; the last one, {} at {}, {}; {}", by.text, moment_text(last.by.at),
-                                 ended, could_start_text(inquiry, port, last.by.end));
+  std::string text = fmt::format("; the last one, {} at {}, {}; {}", by.text, moment_text(last.by.at), ended,
+                                 could_start_text(inquiry, port, last.by.end));
   return {.text = std::move(text), .by = std::move(by), .since = last.by.at};
 }
 

@@ -55,22 +55,30 @@ std::string without_figures(std::string_view line) {
 
 }  // namespace
 
-std::optional<std::vector<std::string>> causes_of_no_answer(History& history, std::size_t station,
-                                                            std::span<const std::uint8_t> request, Time timeout,
-                                                            StopToken stop_request) {
-  std::vector<std::string> lines;
+std::vector<std::string> texts_of(const std::vector<CauseOfNoAnswer>& causes) {
+  std::vector<std::string> texts;
+  for (const CauseOfNoAnswer& cause : causes) texts.push_back(cause.text);
+  return texts;
+}
+
+std::optional<std::vector<CauseOfNoAnswer>> causes_of_no_answer(History& history, std::size_t station,
+                                                                std::span<const std::uint8_t> request, Time timeout,
+                                                                StopToken stop_request) {
+  std::vector<CauseOfNoAnswer> causes;
   for (const std::size_t plc : stations_concerned(history, station, request)) {
     const DecisionSearch search = find_last_decision(history, plc, timeout, stop_request);
     if (search.interrupted) return {};
-    for (std::string& line : cause_lines(search))
-      lines.push_back(history.stations() == 1 ? std::move(line) : fmt::format("{}: {}", history.name_of(plc), line));
+    const std::vector<std::string> lines = cause_lines(search);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      causes.push_back({history.stations() == 1 ? lines[i] : fmt::format("{}: {}", history.name_of(plc), lines[i]),
+                        search.unanswered[i].power});
   }
-  return lines;
+  return causes;
 }
 
-std::size_t DifferentCauses::number_of(const std::vector<std::string>& lines) {
+std::size_t DifferentCauses::number_of(const std::vector<CauseOfNoAnswer>& causes) {
   std::string cause;
-  for (const std::string& line : lines) cause += without_figures(line) + '\n';
+  for (const CauseOfNoAnswer& one : causes) cause += fmt::format("{} {}\n", without_figures(one.text), one.power);
   const auto known = std::ranges::find(known_, cause);
   const auto number = static_cast<std::size_t>(known - known_.begin());
   if (known == known_.end()) known_.push_back(std::move(cause));

@@ -14,18 +14,27 @@
 
 namespace s7200::tools {
 
-/// The history stands where the master, on the line of `station`, has given the request up. A line for each cause, in a
-/// system with the name of the station concerned in front: that which has the address in the request if the system file says
-/// so, else each that may have. No lines: it is not known. Nothing after a stop request.
-std::optional<std::vector<std::string>> causes_of_no_answer(History& history, std::size_t station,
-                                                            std::span<const std::uint8_t> request, Time timeout,
-                                                            StopToken stop_request);
+struct CauseOfNoAnswer {
+  std::string text{};   ///< a line
+  std::string power{};  ///< behind the contacts in it, as in TraceReasons::Cause
+};
 
-/// Tells causes apart by what was done, not by when it was, how many characters it was about, or the values met.
+/// Their lines.
+std::vector<std::string> texts_of(const std::vector<CauseOfNoAnswer>& causes);
+
+/// The history stands where the master, on the line of `station`, has given the request up. One after the other, in a
+/// system with the name of the station concerned in front: that which has the address in the request if the system file says
+/// so, else each that may have. None: it is not known. Nothing after a stop request.
+std::optional<std::vector<CauseOfNoAnswer>> causes_of_no_answer(History& history, std::size_t station,
+                                                                std::span<const std::uint8_t> request, Time timeout,
+                                                                StopToken stop_request);
+
+/// Tells causes apart by what was done and by which contacts let power through, not by when it was, how many characters it
+/// was about, or the values met.
 class DifferentCauses {
  public:
   /// How many different causes came before the first one that is the same as this.
-  std::size_t number_of(const std::vector<std::string>& lines);
+  std::size_t number_of(const std::vector<CauseOfNoAnswer>& causes);
 
  private:
   std::vector<std::string> known_{};
