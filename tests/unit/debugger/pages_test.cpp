@@ -291,7 +291,8 @@ TEST(Pages, SeeAFrameWholeWhereAPartBeginsWithinIt) {
 /// A request can be longer ago than the longest frame takes.
 TEST(Pages, KnowAnAnswerByItsLengthWhereItsRequestIsLongAgo) {
   Asked session(
-      "LD SM0.1\nMOVB 16#49, SMB30\nMOVD 16#04010302, VD0\nMOVD 16#1234B533, VD4\nMOVB 7, VB0\nLD I0.0\nEU\nXMT VB0, 0\nMEND\n");
+      "LD SM0.1\nMOVB 16#49, SMB30\nMOVD 16#04010302, VD0\nMOVD 16#1234B533, VD4\nMOVB 7, VB0\nLD I0.0\nEU\nXMT VB0, "
+      "0\nMEND\n");
   session("continue 10ms");
   session("send 01 03 00 0a 00 01 crc");
   session("continue 500ms");
@@ -410,7 +411,11 @@ TEST(WhyLatency, NamesWhatTheLastAnswerWaitedFor) {
   const Json answer = session.json("why latency");
   EXPECT_EQ(answer["name"], "01 03 00 14 00 01 c4 0e");
   ASSERT_FALSE(answer["causes"].empty());
+  for (const char* const command :
+       {"fault answer:silent", "send 01 03 00 0a 00 01 crc", "continue 3s", "send 01 03 00 0a 00 01 crc", "continue 3s"})
+    session(command);
   const std::string text = session("why latency").text;
+  EXPECT_EQ(session.json("why latency"), answer) << "requests without an answer have none";
   EXPECT_TRUE(has(text, "after the end of the request"));
   EXPECT_TRUE(has(text, "until the main program came to XMT VB3327, 0 in line 182, in the scan that began at ")) << text;
 }

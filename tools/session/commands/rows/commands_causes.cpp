@@ -1,6 +1,9 @@
 // The commands that ask what was before: who wrote it, why it is so, what ran.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/trace/text/text_trace.hpp"
 #include "tools/session/causes/latency_cause.hpp"
@@ -35,9 +38,9 @@ Reply why_not(Session& session, Words words) {
   return wish ? obstacles_to(session, *wish, all) : wrong(fmt::format("why not: {}", wish.why()));
 }
 
-/// The answered request of a simulated master that ended last on the line of the PLC that is looked at; null if there is
-/// none.
-const serial::Exchange* last_answered(const Session& session) {
+/// The answered request of a simulated master that ended last on the line of the PLC that is looked at, of those that the
+/// masters know where the history stands; nothing if there is none.
+std::optional<serial::Exchange> answered_last_here(const Session& session) {
   const PlcRequests& requests = session.history.requests();
   const std::size_t line = requests.line_of(session.focus(), session.simulation().port());
   const serial::Exchange* last = nullptr;
@@ -45,11 +48,35 @@ const serial::Exchange* last_answered(const Session& session) {
     const serial::Exchange& exchange = master.requester->exchange();
     if (exchange.latency() && (!last || last->response_start < exchange.response_start)) last = &exchange;
   }
+  return last ? std::optional(*last) : std::nullopt;
+}
+
+/// Before which a master forgets its last one: when the last of them was asked.
+std::optional<Time> asked_last(const Session& session) {
+  const PlcRequests& requests = session.history.requests();
+  std::optional<Time> last;
+  for (const SimulatedMaster& master : requests.masters_on(requests.line_of(session.focus(), session.simulation().port())))
+    if (const serial::Exchange& exchange = master.requester->exchange(); !exchange.request.empty())
+      last = std::max(last.value_or(0), exchange.request_start);
   return last;
 }
 
+/// A request without an answer makes a master forget the one before it: it goes back to where that was known.
+std::optional<serial::Exchange> answered_last(Session& session) {
+  const History::Place here = session.history.here();
+  std::optional<serial::Exchange> found = answered_last_here(session);
+  for (auto asked = asked_last(session); !found && asked.value_or(0) > 0; found = answered_last_here(session)) {
+    if (!session.history.go_to(*asked - 1)) break;
+    const auto before = asked_last(session);
+    asked = before && *before < *asked ? before : std::nullopt;
+  }
+  session.history.return_to(here);
+  return found;
+}
+
 Reply why_latency(Session& session) {
-  const serial::Exchange* const exchange = last_answered(session);
+  const auto exchange = answered_last(session);
+  if (session.stop_requested()) return interrupted(session);
   if (!exchange) return wrong("why latency: no master in the simulation has had an answer on this line so far");
   const auto waits = latency_cause(session.history, session.focus(), *exchange, session.setup.stop_request);
   if (!waits) return interrupted(session);
