@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "tools/views/state/machine_text.hpp"
 #include "tools/views/state/port_mode.hpp"
 
 namespace s7200::tools {
@@ -47,7 +48,8 @@ Result<> SimulatedSlave::wait_until_ready(Time after) {
 std::string SimulatedSlave::note_on_port(bool wants_freeport) const {
   if (simulation_.freeport().active == wants_freeport) return {};
   if (!wants_freeport) return fmt::format("port {} is in Freeport mode: it does not speak PPI there", simulation_.port());
-  return why_no_freeport(simulation_.cpu(), simulation_.port());
+  const std::string why = why_no_freeport(simulation_.cpu(), simulation_.port());
+  return why.empty() ? "" : fmt::format("{} when the first request comes, at {}", why, moment_text(simulation_.time()));
 }
 
 void SimulatedSlave::wait(Time duration) { run_until(simulation_.time() + duration); }
