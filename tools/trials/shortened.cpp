@@ -27,6 +27,7 @@ class Shortening {
       simplify_bytes(i);
     }
     leave_out_stimuli();
+    let_time_pass_instead_of_the_last();
     return std::move(trial_);
   }
 
@@ -77,6 +78,17 @@ class Shortening {
       }
       if (count <= 1) return;
     }
+  }
+
+  /// Where time alone leads there, the last stimulus only says how long that takes: it leaves the inputs as they are.
+  void let_time_pass_instead_of_the_last() {
+    if (trial_.empty()) return;
+    std::uint8_t levels = 0;
+    for (auto one = trial_.begin(); one + 1 != trial_.end(); ++one)
+      if (one->what == What::Input && one->place == 0) levels = one->bytes.front();
+    Trial candidate = trial_;
+    candidate.back() = {.wait = trial_.back().wait, .what = What::Input, .bytes = {levels}};
+    if (accept(std::move(candidate))) simplify_times(trial_.size() - 1);
   }
 
   /// Takes characters out of a frame; the damaged one stays the same one, if it stays.

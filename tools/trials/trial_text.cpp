@@ -36,7 +36,7 @@ std::vector<std::string> words(const Trial& trial) {
       text = fmt::format("{} = {}", place_text(stimulus.place, stimulus.bytes.size()), value);
     }
     if (stimulus.other_port) text += ", at the other port";
-    all.push_back(text.empty() ? "nothing" : text);
+    all.push_back(text.empty() ? "nothing more: time passes" : text);
   }
   return all;
 }

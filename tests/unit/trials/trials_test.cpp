@@ -4,6 +4,7 @@
 #include "tests/support/inspected.hpp"
 #include "tools/trials/shortened.hpp"
 #include "tools/trials/trial_bench.hpp"
+#include "tools/trials/trial_text.hpp"
 #include "tools/trials/vocabulary.hpp"
 
 namespace s7200::tools::trials_test {
@@ -94,6 +95,20 @@ TEST(Shortened, LeavesOutWhatDoesNotMatter) {
   ASSERT_EQ(shortest.size(), 2U);
   EXPECT_EQ(shortest[0].bytes[0], 4);
   EXPECT_EQ(shortest[0].wait, 0);
+}
+
+TEST(Shortened, WhatOnlyLetsTimePassBecomesNothing) {
+  const auto holds = [](const Trial& of) {
+    Time passed = 0;
+    for (const Stimulus& stimulus : of) passed += stimulus.wait;
+    return of.size() > 1 && of[0].bytes[0] == 1 && passed >= 2 * kSecond;
+  };
+  const Trial trial{{.what = What::Input, .bytes = {1}},
+                    {.wait = 2001 * kMillisecond, .what = What::Memory, .place = image::kM, .bytes = {7}}};
+  const Trial shortest = shortened(trial, holds, 2000);
+  ASSERT_EQ(shortest.size(), 2U);
+  EXPECT_EQ(shortest[1], (Stimulus{.wait = shortest[1].wait, .what = What::Input, .bytes = {1}}));
+  EXPECT_NE(trial_text(shortest, {0, 2 * kSecond}).find("2 s  nothing more: time passes\n"), std::string::npos);
 }
 
 TEST(Shortened, ACharacterWithWrongParityStaysTheOneThatItWas) {
