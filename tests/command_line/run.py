@@ -3141,6 +3141,9 @@ class Files(Case):
         self.assertIn("program.stl does not run on a CPU 214; CPU 224 is assumed, --cpu names another", done.stderr)
         plain = self.ends(FINE, "run", SLAVE, "--scans", "1")
         self.assertEqual(plain.stderr, "")
+        for head, said in (("CPU 313C", "program.stl names a CPU 313C in its head, which is not modelled; CPU 224 is assumed, --cpu names another"),
+                           ("CPU 226CN", "program.stl names a CPU 226 CN in its head, which is taken for a CPU 226")):
+            self.assertIn(said, self.ends(FINE, "run", self.program(f"// {head}\n" + self.RCV), "--scans", "1").stderr)
 
     def test_scenarios_and_systems_find_the_cpu_in_the_same_way(self):
         self.program("// CPU 226\n" + self.RCV, "named.stl")

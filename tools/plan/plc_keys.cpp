@@ -143,7 +143,7 @@ std::vector<PlcKey> rows() {
     {.name = "program", .of_system = true, .form = "PATH", .meaning = "STL file or published document, from the folder of this file"},
     {.name = "with", .shape = Shape::List, .of_system = true, .of_scenario = true, .form = "LIST", .meaning = "paths of the other files of the program's project: symbol tables, data blocks, blocks"},
     {.name = "repair", .of_system = true, .form = "TEXT", .meaning = "slips of a published listing to repair, as `s7200 check` names them: `R1,R2` or `all`"},
-    {.name = "cpu", .of_system = true, .of_scenario = true, .form = "TYPE", .meaning = "`214` if left out"},
+    {.name = "cpu", .of_system = true, .of_scenario = true, .form = "TYPE", .meaning = "that of the program's head or of `s7200.yaml` if left out, else the first of 214, 224, 226, 224XP that can run it"},
     {.name = "times", .of_system = true, .of_scenario = true, .form = "TABLE", .meaning = "execution times: the name of a table, or the path of a CSV file as `s7200 times --csv` writes it"},
 
     {.name = "ppi_baud", .stage = Stage::Cpu, .of_system = true, .of_scenario = true, .form = "NUMBER",

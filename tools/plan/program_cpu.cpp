@@ -41,18 +41,29 @@ ProgramCpu read_settings(const std::string& file, const FileSource& files) {
   return {.model = model};
 }
 
+/// Of one that is not modelled, or of the CN series.
+std::string note_on_head(const std::string& in_head, const std::string& file, const CpuModel& taken) {
+  if (in_head.empty()) return {};
+  if (in_head.ends_with(" CN") && in_head.starts_with(taken.name))
+    return fmt::format("{} names a CPU {} in its head, which is taken for a CPU {}", file, in_head, taken.name);
+  return fmt::format("{} names a CPU {} in its head, which is not modelled; CPU {} is assumed, --cpu names another", file,
+                     stl::shortened(in_head), taken.name);
+}
+
 }  // namespace
 
 ProgramCpu cpu_of_program(const SourceText& text, const std::string& path, const FileSource& files) {
-  if (const CpuModel* named = cpu_in_head(text.parsed.source)) return {.model = named};
+  const std::string name = stl::printable(text.parsed.source.name), in_head = unmodelled_cpu_in_head(text.parsed.source);
+  if (const CpuModel* named = cpu_in_head(text.parsed.source))
+    return {.model = named, .note = note_on_head(in_head, name, *named)};
   const std::string settings = beside(path, std::string(kFolderSettings));
   if (!is_standard_input(path) && files.exists(settings)) return read_settings(settings, files);
   const CpuModel& first = first_cpu_for(text.parsed);
+  if (!in_head.empty()) return {.model = &first, .note = note_on_head(in_head, name, first)};
   const bool said = !stl::symbol_of_smart(text.parsed.source).empty() && &first == &cpu226();  // in a note of the text
   if (&first == &cpu214() || said) return {.model = &first};
   return {.model = &first,
-          .note = fmt::format("{} does not run on a CPU 214; CPU {} is assumed, --cpu names another",
-                              stl::printable(text.parsed.source.name), first.name)};
+          .note = fmt::format("{} does not run on a CPU 214; CPU {} is assumed, --cpu names another", name, first.name)};
 }
 
 }  // namespace s7200::tools

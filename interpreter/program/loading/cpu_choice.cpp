@@ -21,8 +21,8 @@ constexpr std::array<std::string_view, 3> kWordsOfRelease{"RELEASE", "REL", "V"}
 constexpr std::string_view kBlanks = " \t", kPunctuation = " \t:=-,./*";
 
 /// These words may stand before a CPU in a line that is about nothing else: `PLC type: CPU 224`.
-constexpr std::array<std::string_view, 12> kWordsBefore{"FOR",  "A",      "AN",     "THE",     "PLC",     "TYPE",
-                                                         "ON",   "TARGET", "SIEMENS", "SIMATIC", "S7", "200"};
+constexpr std::array<std::string_view, 12> kWordsBefore{"FOR", "A",      "AN",      "THE",     "PLC", "TYPE",
+                                                        "ON",  "TARGET", "SIEMENS", "SIMATIC", "S7",  "200"};
 
 std::string_view last_word(std::string_view& text) {
   text = text.substr(0, text.find_last_not_of(kPunctuation) + 1);
@@ -45,7 +45,8 @@ bool ends_in_for(std::string_view before) {
   return word == "FOR";
 }
 
-/// `REL 02.01`, `, release 1.20`, `V1.1`: takes it off the rest of a line, and returns the number before the dot; 0 for none.
+/// `REL 02.01`, `, release 1.20`, `V1.1`: takes it off the rest of a line, and returns the number before the dot; 0 for
+/// none.
 int take_release(std::string_view& rest) {
   std::string_view text = rest;
   text.remove_prefix(std::min(text.find_first_not_of(" \t,("), text.size()));
@@ -60,37 +61,74 @@ int take_release(std::string_view& rest) {
   return number;
 }
 
-/// `224 XP, release 2.01`: the CPU, and the rest of the line. Nothing if it is not modelled.
-const CpuModel* cpu_at(std::string_view text, std::string_view& rest) {
-  text.remove_prefix(std::min(text.find_first_not_of(" \t:=-"), text.size()));
-  constexpr std::size_t kDigits = 3;
-  if (text.size() < kDigits || !std::ranges::all_of(text.substr(0, kDigits), stl::is_digit)) return nullptr;
-  std::string name(text.substr(0, kDigits));
-  rest = text.substr(kDigits);
-  std::string_view suffix = rest.substr(std::min(rest.find_first_not_of(kBlanks), rest.size()));
-  suffix = suffix.substr(0, 2);
-  if (suffix == "XP" || suffix == "XM") {
-    rest.remove_prefix(static_cast<std::size_t>(suffix.data() - rest.data()) + suffix.size());
-    name += suffix;
-  }
-  if (!rest.empty() && (stl::is_letter(rest.front()) || stl::is_digit(rest.front()))) return nullptr;
-  const bool first_release = take_release(rest) == 1;
-  const CpuModel* const of_first_release = first_release ? find_cpu(name + "r1") : nullptr;
-  return of_first_release ? of_first_release : find_cpu(name);
+/// A CPU as text names it.
+struct NamedCpu {
+  std::string name{};
+  const CpuModel* model = nullptr;  ///< null: it is not modelled
+  bool is_of_cn_series = false;
+};
+
+/// Takes the end of a CPU's name off the rest of a line: `XP`, ` XP`.
+bool take_suffix(std::string_view& rest, std::string_view suffix) {
+  const std::string_view text = rest.substr(std::min(rest.find_first_not_of(kBlanks), rest.size()));
+  if (!text.starts_with(suffix)) return false;
+  rest = text.substr(suffix.size());
+  return true;
 }
 
-const CpuModel* cpu_in_line(std::string_view comment, bool is_title) {
+/// `224 XP, release 2.01`: the CPU, and the rest of the line. Nothing if it is no CPU of Siemens.
+std::optional<NamedCpu> cpu_at(std::string_view text, std::string_view& rest) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t:=-"), text.size()));
+  constexpr std::size_t kDigits = 3;
+  if (text.size() < kDigits || !std::ranges::all_of(text.substr(0, kDigits), stl::is_digit)) return {};
+  NamedCpu cpu{.name = std::string(text.substr(0, kDigits))};
+  rest = text.substr(kDigits);
+  for (const std::string_view suffix : {"XP", "XM"})
+    if (take_suffix(rest, suffix)) cpu.name += suffix;
+  cpu.is_of_cn_series = take_suffix(rest, "CN");
+  const std::size_t tail = std::min(rest.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-"), rest.size());
+  cpu.name += rest.substr(0, tail);
+  rest.remove_prefix(tail);
+  const bool first_release = take_release(rest) == 1;
+  cpu.model = first_release ? find_cpu(cpu.name + "r1") : nullptr;
+  if (!cpu.model) cpu.model = find_cpu(cpu.name);
+  if (cpu.is_of_cn_series) cpu.name += " CN";
+  return cpu;
+}
+
+std::optional<NamedCpu> cpu_in_line(std::string_view comment, bool is_title) {
   const std::string upper = stl::upper_case(comment);
   const std::size_t at = upper.find("CPU");
-  if (at == std::string::npos || (at > 0 && stl::is_letter(upper[at - 1]))) return nullptr;
+  if (at == std::string::npos || (at > 0 && stl::is_letter(upper[at - 1]))) return {};
   const std::string_view before = std::string_view(upper).substr(0, at);
   std::string_view rest;
-  const CpuModel* const model = cpu_at(std::string_view(upper).substr(at + 3), rest);
-  if (!model) return nullptr;
-  if (is_title && ends_in_for(before)) return model;
+  auto cpu = cpu_at(std::string_view(upper).substr(at + 3), rest);
+  if (!cpu || (is_title && ends_in_for(before))) return cpu;
   rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
   const bool ends_there = rest.empty() || std::string_view(",.;:()*").find(rest.front()) != std::string_view::npos;
-  return ends_there && is_about_nothing_else(before) ? model : nullptr;
+  if (!ends_there || !is_about_nothing_else(before)) cpu.reset();
+  return cpu;
+}
+
+/// The first that is modelled; without one the first that is not.
+std::optional<NamedCpu> named_in_head(const stl::Source& source) {
+  std::optional<NamedCpu> unmodelled;
+  const auto is_it = [&](std::optional<NamedCpu>& cpu) {
+    if (cpu && !cpu->model && !unmodelled) unmodelled = cpu;
+    return cpu && cpu->model;
+  };
+  bool is_title = true;
+  for (const stl::Line& line : source.lines) {
+    if (std::holds_alternative<stl::Statement>(line)) break;
+    const auto* const comment = std::get_if<stl::CommentLine>(&line);
+    if (!comment) continue;
+    if (auto cpu = cpu_in_line(comment->text, is_title); is_it(cpu)) return cpu;
+    is_title &= stl::trim(comment->text).empty();
+  }
+  const auto main = std::ranges::find(source.blocks, stl::Block::Kind::Main, &stl::Block::kind);
+  if (main == source.blocks.end()) return unmodelled;
+  auto cpu = cpu_in_line(main->title, true);
+  return is_it(cpu) ? cpu : unmodelled;
 }
 
 bool is_for_smart(const stl::Source& source) {
@@ -104,21 +142,19 @@ bool is_for_smart(const stl::Source& source) {
 }  // namespace
 
 const CpuModel* cpu_in_head(const stl::Source& source) {
-  bool is_title = true;
-  for (const stl::Line& line : source.lines) {
-    if (std::holds_alternative<stl::Statement>(line)) break;
-    const auto* const comment = std::get_if<stl::CommentLine>(&line);
-    if (!comment) continue;
-    if (const CpuModel* model = cpu_in_line(comment->text, is_title)) return model;
-    is_title &= stl::trim(comment->text).empty();
-  }
-  const auto main = std::ranges::find(source.blocks, stl::Block::Kind::Main, &stl::Block::kind);
-  return main == source.blocks.end() ? nullptr : cpu_in_line(main->title, true);
+  const auto cpu = named_in_head(source);
+  return cpu ? cpu->model : nullptr;
+}
+
+std::string unmodelled_cpu_in_head(const stl::Source& source) {
+  const auto cpu = named_in_head(source);
+  return cpu && (!cpu->model || cpu->is_of_cn_series) ? cpu->name : "";
 }
 
 bool is_cpu_line(std::string_view line) {
   const std::string first = stl::upper_case(line.substr(0, line.find_first_of(" \t:=-")));
-  return !find_instruction(first) && cpu_in_line(line, false);
+  const auto cpu = cpu_in_line(line, false);
+  return !find_instruction(first) && cpu && cpu->model;
 }
 
 const CpuModel& first_cpu_for(const stl::ParseResult& parsed) {

@@ -56,6 +56,32 @@ TEST(CpuInHead, ThatIsNotModelledIsNamed) {
   EXPECT_EQ(result.diagnostics.front().message, "this line names no CPU that is modelled");
 }
 
+/// "none" if the head names none, or one that is modelled.
+std::string unmodelled(const std::string& head) {
+  const std::string cpu = unmodelled_cpu_in_head(read(head + "\nNETWORK 1\nLD SM0.0\nMEND\n").source);
+  return cpu.empty() ? "none" : cpu;
+}
+
+TEST(CpuInHead, ThatIsNotModelledIsToldFromNone) {
+  EXPECT_EQ(unmodelled("// CPU 999"), "999");
+  EXPECT_EQ(unmodelled("// pump\n// PLC type: CPU 313C"), "313C");
+  EXPECT_EQ(unmodelled("// tank control for the CPU 315-2DP"), "315-2DP");
+  EXPECT_EQ(unmodelled("// CPU 999\n// CPU 224"), "none");
+  EXPECT_EQ(named("// CPU 999\n// CPU 224"), "224");
+  EXPECT_EQ(unmodelled("// CPU 224"), "none");
+  EXPECT_EQ(unmodelled("// CPU 300 ms late"), "none");
+  EXPECT_EQ(unmodelled("// as the CPU 313C had it"), "none");
+  EXPECT_EQ(unmodelled("// nothing"), "none");
+}
+
+TEST(CpuInHead, OfTheCnSeriesIsTheOneWithoutCn) {
+  EXPECT_EQ(named("// CPU 224CN"), "224");
+  EXPECT_EQ(unmodelled("// CPU 224CN"), "224 CN");
+  EXPECT_EQ(named("// CPU 224XP CN REL 02.01"), "224XP");
+  EXPECT_EQ(unmodelled("// CPU 224XP CN REL 02.01"), "224XP CN");
+  EXPECT_EQ(named("// CPU 226 CN"), "226");
+}
+
 TEST(CpuInHead, IsNotTakenFromAStatement) {
   EXPECT_EQ(cpu_in_head(read("A CPU224\n= Q0.0\n").source), nullptr) << "a symbol";
   EXPECT_EQ(cpu_in_head(read("LD I0.0\nCPU 224\n= Q0.0\n").source), nullptr) << "not the first line";

@@ -109,8 +109,8 @@ std::string models() {
                         cpu->size_of(Area::C), cpu->eeprom_bytes - 1,
                         cpu->sold_as.empty() ? "" : fmt::format("; sold as CPU {}", cpu->sold_as));
   return text +
-         "Without --cpu a program runs on the CPU that its head or the s7200.yaml in its folder names, otherwise on the "
-         "first that can run it, which is said.\n"
+         "Without --cpu a program runs on the CPU that its head or the s7200.yaml in its folder names, otherwise on a "
+         "CPU 214, or the first of 224, 226, 224XP and the others that can run it, which is said.\n"
          "Models of the Westinghouse family: s7200 help westinghouse.\n";
 }
 

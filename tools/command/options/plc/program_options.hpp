@@ -22,7 +22,7 @@ namespace s7200::tools {
 void add_cpu_option(CLI::App& app, std::string& cpu, const std::string& text);
 
 /// For the text of --cpu where a program is run: which one is taken without it.
-inline constexpr const char* kCpuFound = "[as its head or s7200.yaml says, or the first that can]";
+inline constexpr const char* kCpuFound = "[as its head or s7200.yaml says, or 214, 224, 226, 224XP: the first that can]";
 
 /// For doubters.
 inline constexpr const char* kNoSkip = "--no-skip";
