@@ -65,7 +65,7 @@ TEST(Explanation, AMissingAnswerHasItsCauseInReportJsonAndJunit) {
 TEST(Explanation, OfMemoryItSaysWhatIsForced) {
   const auto program = program_of("LD I0.0\n= Q0.0\nMEND\n");
   const Failed input("  - force: {I0.0: 0}\n  - set: {I0.0: 1}\n  - wait: 20ms\n  - memory: {Q0.0: 1}\n", program);
-  EXPECT_TRUE(has(input.lines(), "LD I0.0: I0.0=0; I0.0 is forced)"));
+  EXPECT_TRUE(has(input.lines(), "LD I0.0: I0.0=0); I0.0 was forced"));
   const Failed output("  - force: {Q0.0: 0}\n  - set: {I0.0: 1}\n  - wait: 20ms\n  - memory: {Q0.0: 1}\n", program);
   EXPECT_TRUE(has(output.lines(), "Q0.0 is forced to 0"));
 }

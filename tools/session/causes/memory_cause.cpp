@@ -273,6 +273,15 @@ std::string value_of(const Cpu& cpu, const MemoryRange& range) {
   return value_text(cpu.program(), range, range.bytes_in(cpu.state().image));
 }
 
+/// `Q0.0 is forced to 0`; empty if nothing of it is.
+std::string forced_value_text(const Cpu& cpu, const MemoryRange& range) {
+  for (const Assignment& forced : forcing::listed(cpu.state().forcing))
+    if (bits_of(forced.place).overlaps(bits_of(range)))
+      return fmt::format("{} is forced to {}", forced.place.name_of(0),
+                         value_text(cpu.program(), forced.place, forcing::seen_outside(cpu.state(), forced.place)));
+  return {};
+}
+
 }  // namespace
 
 std::string named(const Program& program, const MemoryRange& range) {
@@ -315,6 +324,8 @@ std::optional<std::vector<std::string>> memory_cause(History& history, std::size
   }
   history.go_to(start);
   if (inquiry.interrupted()) return {};
+  if (const std::string forced = forced_value_text(history.station(station).cpu(), range); !forced.empty())
+    lines.push_back(forced);
   return lines;
 }
 
