@@ -395,7 +395,7 @@ bool is_logic(const Node& node) {
 
 /// What cannot be computed now is against it too.
 void collect_against(const Node& node, bool wanted, const Cpu& cpu, std::vector<const Node*>& places) {
-  if (const auto value = evaluate(node, cpu); value && value->truth() == wanted) return;
+  if (const auto value = evaluate(node, cpu, Expression::SeenBy::Outside); value && value->truth() == wanted) return;
   if (!is_logic(node)) return collect_places(node, places);
   const bool wanted_inside = (node.kind == Node::Kind::Not) != wanted;
   for (const Node* const side : {node.left.get(), node.right.get()})

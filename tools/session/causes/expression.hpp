@@ -75,7 +75,8 @@ class Expression {
   /// The addresses in it, each once.
   std::vector<Place> places() const;
 
-  /// Those that keep it from being true, or false: of `and`, `or` and `not` only what would have to be otherwise.
+  /// Those that keep it from being true, or false, as seen outside: of `and`, `or` and `not` only what would have to be
+  /// otherwise.
   std::vector<Place> places_against(bool wanted, const Cpu& cpu) const;
 
   const std::string& text() const { return text_; }
