@@ -6,7 +6,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { test } from 'node:test';
 
-const kParts = ['words', 'formats', 'exchanges', 'files', 'status_charts', 'timeline/draw', 'timeline/scale'];
+const kParts = ['state', 'words', 'formats', 'exchanges', 'files', 'status_charts', 'timeline/draw', 'timeline/scale'];
 const source = kParts.map((one) => `export * from './${one}';`).join('\n');
 const bundle = execFileSync('esbuild', ['--bundle', '--format=esm', '--platform=neutral'],
   { input: source, cwd: path.join(process.env.SOURCE, 'tools/faces/page/src'), encoding: 'utf8' });
@@ -50,6 +50,18 @@ test('a value is the same bits in every format', () => {
   assert.equal(parts.text_in({ type: 'dword', number: -1, text: '-1' }, 'hex'), '16#FFFFFFFF');
   assert.equal(parts.query_of('VD20', 'real'), 'VD20:real');
   assert.equal(parts.query_of('VD20', 'hex'), 'VD20');
+});
+
+test('listing and ladder show a value in the format that the chart has for it', () => {
+  parts.state.chart = [{ address: 'VW2', format: 'hex' }, { address: 'Level', format: 'binary' }, { address: 'VD8', format: 'real' }, { address: 'T37', format: 'unsigned' }];
+  parts.state.values = new Map([['Level', { address: 'VB0' }]]);
+  assert.equal(parts.in_formats('VB0=16#C8 Speed:VW2=16#FFFB'), 'VB0=2#1100_1000 Speed:VW2=16#FFFB');
+  assert.equal(parts.in_formats('VW100=16#FFFB VD8=16#3FC00000 (1.5) VD12=16#3FC00000 (1.5) I0.0=1'), 'VW100=-5 VD8=1.5 VD12=1.5 I0.0=1');
+  assert.equal(parts.operand_text('VW2', -5, 'S0=1 VW2=16#FFFB'), '16#FFFB');
+  assert.equal(parts.operand_text('VB0', 200, 'S0=1 Level:VB0=16#C8'), '2#1100_1000');
+  assert.equal(parts.operand_text('VW100', -5, 'S0=1 VW100=16#FFFB'), '-5');
+  assert.equal(parts.operand_text('I0.0', true, 'S0=1 I0.0=1'), '1');
+  parts.state.chart = [];
 });
 
 test('only one word or a quoted symbol is asked for', () => {

@@ -1,6 +1,6 @@
 // Values in the formats of a status chart, by the names that Micro/WIN gives them.
+import { state, type ChartRow, type Format } from './state';
 import type { Value } from './protocol';
-import type { Format } from './state';
 
 export const kFormats: { format: Format; name: string }[] = [
   { format: 'signed', name: 'Signed' },
@@ -48,6 +48,31 @@ export function text_in(value: Value, format: Format): string {
       return String(width > 8 && bits >= 2 ** (width - 1) ? bits - 2 ** width : bits);
     case 'real': return value.text;
   }
+}
+
+/** The format in which the chart shows an address, by the address or its symbol; signed if it is not there. */
+function format_of(name: string): Format {
+  const names = (row: ChartRow): string[] => [row.address.trim(), state.values.get(query_of(row.address, row.format))?.address ?? ''];
+  return state.chart.find((row) => names(row).some((one) => one.toUpperCase() === name.toUpperCase()))?.format ?? 'signed';
+}
+
+const kTypeOfDigits: Record<number, Value['type']> = { 2: 'byte', 4: 'word', 8: 'dword' };
+
+/** `VW100=16#1234 VD4=16#3FC00000 (1.5)`, each value as the chart would show it. */
+export function in_formats(text: string): string {
+  return text.replace(/(\S+)=16#([0-9A-F]+)\b(?: \(([^)]*)\))?/g, (all, name: string, digits: string, real: string | undefined) => {
+    const type = kTypeOfDigits[digits.length], address = name.slice(name.lastIndexOf(':') + 1), format = format_of(address);
+    if (!type) return all;
+    if (real !== undefined && (format === 'signed' || format === 'real')) return `${name}=${real}`;
+    return `${name}=${text_in({ name, address, symbol: '', type, text: all, number: parseInt(digits, 16), forced: false }, format)}`;
+  });
+}
+
+/** The value of an operand, as the chart would show it; what the session says of its instruction has all bits of it. */
+export function operand_text(address: string, value: number | boolean, said: string): string {
+  const words = format_of(address) === 'signed' ? null : said.match(/\S+=16#[0-9A-F]+\b(?: \([^)]*\))?/g);
+  const found = words?.find((one) => one.slice(0, one.indexOf('=')).split(':').pop() === address);
+  return found ? in_formats(found).replace(/^.*?=/, '') : String(Number(value));
 }
 
 /** The address as a query takes it: a double word in floating point is asked for as one. */

@@ -2,6 +2,7 @@
 // networks in view are asked for and made.
 import { h, is_press, type Child, type Part } from '../dom';
 import { also_seen, fetch_chunk_of, query, Seen } from '../session';
+import { in_formats } from '../formats';
 import { changed, state } from '../state';
 import type { LadderElement, LadderNetwork, Reply } from '../protocol';
 import { open_menu, open_menu_at } from './menu';
@@ -122,7 +123,7 @@ function element(one: LadderElement, power: boolean[], is_chosen: boolean): Part
   const value = one.value ?? '';
   const here = one.op !== null && one.op === state.past?.op;
   return h('g', { class: `${on ? 'on' : ''}${here ? ' here' : ''}`, onclick: () => { state.selected_line = one.line; changed(); } },
-    h('title', {}, `line ${one.line}${value ? `: ${value}` : ''}`),
+    h('title', {}, `line ${one.line}${value ? `: ${in_formats(value)}` : ''}`),
     filling(one, power), one.kind === 'box' ? box(one, is_chosen) : h('path', { class: 'wire', d: one.kind === 'contact' ? contact_path(one) : coil_path(one) }),
     symbol_text(one), one.operands.map((text) => address_text(text.text, text.column, text.row, one.op, is_chosen)));
 }
@@ -148,7 +149,7 @@ function values(network: LadderNetwork): Child {
   const said = [...new Set(all.filter((text) => text !== ''))];
   const symbols = network.notes.filter((note) => note.symbol !== '');
   if (said.length + symbols.length === 0) return null;
-  return h('div', { class: 'ladder-values' }, said.map((text) => h('span', {}, text)),
+  return h('div', { class: 'ladder-values' }, said.map((text) => h('span', {}, in_formats(text))),
     symbols.map((note) => h('span', { class: 'hint', title: note.comment }, `${note.text} ${note.symbol}`)));
 }
 
@@ -174,12 +175,13 @@ function network_part(one: LadderNetwork, is_chosen: boolean): Child[] {
     one.head !== null ? h('div', { class: 'ladder-stl' }, one.head) : one.grid ? [drawing(one, is_chosen), values(one)] : stl_of(one)];
 }
 
-function follow(all: { place: Place; top: number }[]): void {
+function follow(all: { place: Place; top: number; height: number }[]): void {
   const op = state.past?.op ?? null;
   if (!scroller || !state.follow || op === null || op === followed) return;
   followed = op;
   const found = all.find(({ place }) => op >= place.first && op < place.end);
-  if (found && (found.top < scroller.scrollTop || found.top > scroller.scrollTop + scroller.clientHeight - 60)) scroller.scrollTop = Math.max(0, found.top - 20);
+  const seen_height = Math.min(found?.height ?? 0, scroller.clientHeight - 20);
+  if (found && (found.top < scroller.scrollTop || found.top + seen_height > scroller.scrollTop + scroller.clientHeight)) scroller.scrollTop = Math.max(0, found.top - 20);
 }
 
 /** The line whose network stays at the top until one scrolls: how high those above it are is known only when they are drawn. */

@@ -2,6 +2,7 @@
 import { h, is_press, kept, type Child, type Part } from '../dom';
 import { command, fetch_chunk_of, go_to, see_lines } from '../session';
 import { changed, notice, state } from '../state';
+import { operand_text } from '../formats';
 import { duration_text, moment_text } from '../words';
 import type { Execution, Line, Operand, Outline } from '../protocol';
 import { open_menu, open_menu_at } from './menu';
@@ -74,10 +75,6 @@ async function find(text: string): Promise<void> {
   scroll_to(found_at);
 }
 
-function value_text(value: number | boolean | null): string {
-  return value === null ? '' : value === true ? '1' : value === false ? '0' : String(value);
-}
-
 /** Those of the selected line can be reached with the tab key. */
 function operand(one: Operand, value: number | boolean | null | undefined, line: Line): Part {
   const on = value === true || value === 1;
@@ -110,7 +107,7 @@ function values_of(line: Line, execution: Execution): Part[] {
   return (line.operands ?? []).flatMap((one, i) => {
     const value = execution.values[i];
     if (one.address === '' || value === null || value === undefined) return [];
-    return [h('span', { class: 'value' }, h('span', { class: 'name' }, `${one.symbol || one.text}=`), value_text(value))];
+    return [h('span', { class: 'value' }, h('span', { class: 'name' }, `${one.symbol || one.text}=`), operand_text(one.address, value, execution.text))];
   });
 }
 
