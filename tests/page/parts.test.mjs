@@ -30,9 +30,50 @@ test('moments are read in every unit that a command takes, and written so that n
 test('marks of a day are hours and minutes, as far apart as those of a clock', () => {
   const scale = (hours) => ({ from_ns: 0, to_ns: hours * 3600e9, left: 0, right: 1100 });
   assert.deepEqual([24, 6, 1, 1 / 60, 24 * 30].map((hours) => parts.step_of(scale(hours), 110) / 1e9), [10800, 3600, 600, 10, 5 * 86400]);
-  assert.equal(parts.clock_text(48600e9, false), '13:30');
-  assert.equal(parts.clock_text(90e9, true), '0:01:30');
-  assert.equal(parts.moment_from(parts.clock_text(86399e9, true)), 86399e9);
+  assert.equal(parts.clock_text(48600e9, 'minutes'), '13:30');
+  assert.equal(parts.clock_text(90e9, 0), '0:01:30');
+  assert.equal(parts.moment_from(parts.clock_text(86399e9, 0)), 86399e9);
+});
+
+test('a moment after an hour is that of a clock, and can be typed', () => {
+  assert.equal(parts.moment_text(3599999999000), '3599.999999 s');
+  assert.equal(parts.moment_text(43200000250000), '12:00:00.000250');
+  assert.equal(parts.moment_text(3599999999999), '3600.000000 s');
+  assert.equal(parts.moment_text(7199999999999), '2:00:00.000000');
+  assert.equal(parts.moment_from('12:00:00.000250'), 43200000250000);
+});
+
+test('what the session says has its times as the page writes them', () => {
+  const said = { '43200000.000 ms passed': '12:00:00.000000 passed', 'stopped at 599999.913600 ms,': 'stopped at 599.999914 s,',
+    'after 15.464 ms': 'after 15.464 ms', 'at 210.020664 ms': 'at 210.020664 ms', 'it took 12.5 us': 'it took 12.5 µs', 'send 75 73 us': 'send 75 73 µs', 'VW5 users': 'VW5 users' };
+  for (const [text, text_here] of Object.entries(said)) assert.equal(parts.with_times(text), text_here);
+});
+
+/** What is drawn on a canvas: texts, and the lines of each stroke in their colour. */
+function drawn(view) {
+  const texts = [], lines = [];
+  let from, path = [];
+  const c = { texts, lines, measureText: (text) => ({ width: 6 * text.length }), fillText: (text, x, y) => texts.push({ text, x, y }), beginPath: () => { path = []; },
+    moveTo: (x, y) => { from = [x, y]; }, lineTo: (x, y) => { path.push([from, [x, y]]); from = [x, y]; }, stroke() { for (const line of path) lines.push({ colour: this.strokeStyle, line }); } };
+  for (const name of ['fillRect', 'strokeRect', 'fill']) c[name] = () => {};
+  parts.draw(c, { now_ns: 0, newest_ns: view.scale.to_ns, cursors: { a_ns: null, b_ns: null }, marks: [], selected: null, ...view }, new Proxy({}, { get: (_none, name) => name }));
+  return { texts, lines };
+}
+
+test('late in a run the ruler counts seconds, then as a clock', () => {
+  const marks = (from_ns, to_ns) => drawn({ scale: { from_ns, to_ns, left: 0, right: 1200 }, rows: [], width: 1200, height: 200 }).texts.map((one) => one.text);
+  assert.equal(marks(599.8e9, 600e9)[1], '599.82 s');
+  assert.equal(marks(43200e9, 43200.2e9)[1], '12:00:00.02');
+  assert.equal(marks(0, 200e6)[1], '20 ms');
+});
+
+test('what an interrupt has waited is drawn above its track, not over the words in it', () => {
+  const spans = [{ at_ns: 0, end_ns: 60, text: 'INT 0: event 10 (timed interrupt 0)' }, { at_ns: 70, end_ns: 100, occurred_ns: 30, text: 'INT 0: event 10' }];
+  const rows = parts.rows_of({ tracks: [{ kind: 'interrupts', name: 'INT 0', exact: true, spans }] }, 0);
+  const { texts, lines } = drawn({ scale: { from_ns: 0, to_ns: 100, left: 0, right: 1000 }, rows, width: 1000, height: 200 });
+  const words = texts.find((one) => one.text.startsWith('INT 0')), waits = lines.filter((one) => one.colour === 'wait');
+  assert.ok(waits.some(({ line: [a, b] }) => a[0] === 300 && b[0] === 700), 'from the event to its interrupt');
+  for (const { line } of waits) for (const [, y] of line) assert.ok(y < words.y - 4.5, `${y} is above the letters at ${words.y}`);
 });
 
 test('durations are said in the unit that fits', () => {

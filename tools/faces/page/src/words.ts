@@ -7,9 +7,18 @@ function fraction(value: number, digits: number): string {
   return value.toFixed(digits);
 }
 
-/** `102.605583 ms`, from 100 s on `123.456789 s`: down to the nanosecond or microsecond. */
+export const kInSeconds = 100 * kSecond, kAsClock = 3600 * kSecond;  // from where on moments are written so
+
+/** `102.605583 ms`, from 100 s on `123.456789 s`, from an hour on `1:30:00.000125`: down to the nanosecond or microsecond. */
 export function moment_text(ns: number): string {
-  return ns < 100 * kSecond ? `${fraction(ns / kMs, 6)} ms` : `${fraction(ns / kSecond, 6)} s`;
+  if (ns >= kAsClock) return clock_text(ns, 6);
+  return ns < kInSeconds ? `${fraction(ns / kMs, 6)} ms` : `${fraction(ns / kSecond, 6)} s`;
+}
+
+/** What the session says, with times as the page writes them: its moments are in ms, however long, and its microseconds in us. */
+export function with_times(text: string): string {
+  return text.replace(/\b(\d+\.\d{3}(?:\d{3})?) ms\b/g, (all, ms) => (Number(ms) * kMs < kInSeconds ? all : moment_text(Number(ms) * kMs)))
+    .replace(/\b(\d+(?:\.\d+)?) us\b/g, '$1 µs');
 }
 
 /** A moment as a command takes it, without rounding. */
@@ -32,10 +41,12 @@ function trimmed(value: number): string {
 
 const kUnits: Record<string, number> = { ns: 1, us: 1e3, µs: 1e3, ms: kMs, s: kSecond, min: 60 * kSecond, h: 3600 * kSecond };
 
-/** `13:30`, with seconds `0:01:30`: hours, minutes. */
-export function clock_text(ns: number, with_seconds: boolean): string {
-  const seconds = Math.round(ns / kSecond), two = (part: number): string => String(part % 60).padStart(2, '0');
-  return `${Math.floor(seconds / 3600)}:${two(Math.floor(seconds / 60))}${with_seconds ? `:${two(seconds)}` : ''}`;
+/** `13:30`, with seconds `0:01:30`, with that many decimals of them: hours, minutes. */
+export function clock_text(ns: number, decimals: number | 'minutes'): string {
+  const digits = decimals === 'minutes' ? 0 : decimals, unit = 10 ** digits;
+  const parts = Math.round(ns / kSecond * unit), seconds = Math.floor(parts / unit), two = (part: number): string => String(part % 60).padStart(2, '0');
+  const rest = digits === 0 ? '' : `.${String(parts % unit).padStart(digits, '0')}`;
+  return `${Math.floor(seconds / 3600)}:${two(Math.floor(seconds / 60))}${decimals === 'minutes' ? '' : `:${two(seconds)}${rest}`}`;
 }
 
 /** The nanoseconds of `15.193ms`, `2 s`, `1h`, and of `13:30` or `13:30:15.5`, as the ruler counts; undefined if it is not a time. */

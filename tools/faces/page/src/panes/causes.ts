@@ -4,7 +4,7 @@ import { ask_effect, ask_who, ask_why, ask_why_not, forget_trail, see_done } fro
 import { go_to, move } from '../session';
 import { switch_to, terminal_level } from '../switches';
 import { state, type TrailStep } from '../state';
-import { moment_text } from '../words';
+import { moment_text, with_times } from '../words';
 import type { Obstacle } from '../protocol';
 
 const kAddress = /\b(?:(?:SM|[IQVMSL])\d+\.[0-7]|(?:SM|[IQVMSL])[BWD]\d+|A[IQ]W\d+|[TC]\d{1,3}|HC\d|AC[0-3])\b/g;
@@ -17,7 +17,7 @@ export function linked(line: string): Child[] {
   const marks = [...line.matchAll(kAddress), ...line.matchAll(kMoment)].sort((a, b) => a.index! - b.index!);
   for (const mark of marks) {
     if (mark.index! < end) continue;
-    parts.push(line.slice(end, mark.index));
+    parts.push(with_times(line.slice(end, mark.index)));
     const text = mark[0];
     const ns = Math.round(Number(mark[1]) * 1e6);
     parts.push(mark[1] !== undefined
@@ -25,7 +25,7 @@ export function linked(line: string): Child[] {
       : h('button', { class: 'link', title: `Why ${text}?`, onclick: () => void ask_why(text) }, text));
     end = mark.index! + text.length;
   }
-  parts.push(line.slice(end));
+  parts.push(with_times(line.slice(end)));
   return parts;
 }
 

@@ -3,7 +3,7 @@ import { h, type Part } from '../dom';
 import { action, title_with_key } from '../actions';
 import { icon } from '../icons';
 import { changed } from '../state';
-import { duration_text } from '../words';
+import { duration_text, moment_text } from '../words';
 import { histogram } from './histogram';
 import type { DecodedConversation, DecodedFrame } from '../protocol';
 
@@ -35,7 +35,7 @@ function us_text(us: number | null): string {
 
 function row(one: DecodedFrame, number: number): Part {
   return h('tr', { key: number, class: is_trouble(one) ? `${one.kind} trouble` : one.kind },
-    h('td', { class: 'number' }, one.at_us === null ? '' : (one.at_us / 1e3).toFixed(3)),
+    h('td', { class: 'number' }, one.at_us === null ? '' : moment_text(one.at_us * 1e3)),
     h('td', { class: 'number' }, us_text(one.silence_us)),
     h('td', {}, one.kind),
     h('td', { class: 'frame' }, spaced(one.bytes)),
@@ -80,7 +80,7 @@ export function conversation_page(conversation: DecodedConversation): Part[] {
         histogram(latencies), pager(fits.length),
         h('span', { class: 'hint rows-shown' }, fits.length === 0 ? 'no frames' : `${shown_from + 1} to ${last} of ${fits.length} frames`)),
       h('div', { class: 'conversation-rows' }, h('table', { class: 'exchanges' },
-        h('thead', {}, h('tr', {}, ['ms', 'Silence', '', 'Bytes', 'What it says', 'Latency', 'Place'].map((name) => h('th', {}, name)))),
+        h('thead', {}, h('tr', {}, ['At', 'Silence', '', 'Bytes', 'What it says', 'Latency', 'Place'].map((name) => h('th', {}, name)))),
         h('tbody', {}, fits.slice(shown_from, last).map(({ one, number }) => row(one, number)))))),
   ];
 }

@@ -4,6 +4,7 @@ import { changed, state } from '../state';
 import { icon } from '../icons';
 import { toggle_dialog } from '../actions';
 import { can_open } from '../playground';
+import { with_times } from '../words';
 
 const kConnections = {
   connecting: 'connecting …',
@@ -25,7 +26,7 @@ export function status_bar(): Part {
     h('span', { class: `connection ${state.connection}`, role: 'status', 'aria-live': 'polite' },
       kConnections[state.connection] + (state.connection === 'ended' && state.why_ended ? `: ${state.why_ended}` : '')),
     h('span', { class: 'place' }, place()),
-    h('span', { class: 'printed' }, state.printed[state.printed.length - 1] ?? ''),
+    h('span', { class: 'printed' }, with_times(state.printed[state.printed.length - 1] ?? '')),
     h('button', { class: 'plain program-name', title: state.hello?.program ?? 'About this page', onclick: toggle_dialog('about') },
       state.hello ? `${state.hello.program.replace(/^.*[\\/]/, '')} · CPU ${state.hello.cpu}` : 's7200'));
 }
@@ -40,6 +41,6 @@ export function notice_bar(): Part | null {
       `The session has ended${state.why_ended ? `: ${state.why_ended}` : ''}. What you see is the last that was known${can_open() ? '' : '; when s7200 is started at this address again, the page connects to it'}.`);
   if (!state.notice) return null;
   return h('div', { class: `notice ${state.notice.kind}`, role: state.notice.kind === 'error' ? 'alert' : 'status', key: 'notice' },
-    h('span', {}, state.notice.text),
+    h('span', {}, with_times(state.notice.text)),
     h('button', { class: 'plain', 'aria-label': 'Put away', onclick: () => { state.notice = null; changed(); } }, icon('close')));
 }

@@ -3,7 +3,7 @@
 import type { SerialFormat, Span, SpanTrack, Spans } from '../protocol';
 import { without_turns } from '../dom';
 import { first_after, ns_at, step_of, x_of, type Scale } from './scale';
-import { clock_text, duration_text, moment_text } from '../words';
+import { clock_text, duration_text, kAsClock, kInSeconds, moment_text, with_times } from '../words';
 
 export const kRuler = 22, kGap = 3;
 
@@ -187,11 +187,11 @@ function draw_levels(c: CanvasRenderingContext2D, view: View, row: Row, one: Spa
 function draw_wait(c: CanvasRenderingContext2D, view: View, row: Row, one: Span, theme: Theme): void {
   const x = Math.max(view.scale.left, x_of(view.scale, one.occurred_ns!)), end = x_of(view.scale, one.at_ns);
   if (end - x < 2) return;
-  const y = row.top + 3;
+  const y = row.top - kGap / 2;  // above what the same interrupt may still be doing then, and the words in it
   c.strokeStyle = theme['wait']!;
   c.lineWidth = 1.5;
   c.beginPath();
-  c.moveTo(x, row.top); c.lineTo(x, row.top + row.height);
+  c.moveTo(x, y - 2); c.lineTo(x, y + 4);
   c.moveTo(x, y); c.lineTo(end, y);
   if (end - x > 8) { c.moveTo(end - 4, y - 3); c.lineTo(end, y); c.lineTo(end - 4, y + 3); }
   c.stroke();
@@ -268,14 +268,14 @@ function draw_ruler(c: CanvasRenderingContext2D, view: View, theme: Theme): void
   c.stroke();
 }
 
-const kMinute = 60e9, kHour = 3600e9;
+const kMinute = 60e9;
 
 /** In a part of minutes or hours, and late in a long run, as a clock that was started with it. */
 function mark_text(ns: number, step: number, to_ns: number): string {
-  if (ns >= 0 && (step >= kMinute / 4 || (step >= 1e9 && to_ns >= kHour))) return clock_text(ns, step < 10 * kMinute);
-  const [unit, name] = step >= 1e9 ? [1e9, 's'] : step >= 1e3 ? [1e6, 'ms'] : [1e3, 'µs'];
-  const digits = Math.max(0, Math.round(Math.log10(unit) - Math.floor(Math.log10(step))));
-  return `${(ns / unit).toFixed(digits)} ${name}`;
+  const digits_of = (unit: number): number => Math.max(0, Math.round(Math.log10(unit) - Math.floor(Math.log10(step))));
+  if (ns >= 0 && (step >= kMinute / 4 || to_ns >= kAsClock)) return clock_text(ns, step >= 10 * kMinute ? 'minutes' : digits_of(1e9));
+  const [unit, name] = step >= 1e9 || to_ns >= kInSeconds ? [1e9, 's'] : step >= 1e3 ? [1e6, 'ms'] : [1e3, 'µs'];
+  return `${(ns / unit).toFixed(digits_of(unit))} ${name}`;
 }
 
 function draw_line_at(c: CanvasRenderingContext2D, view: View, ns: number, colour: string, name: string): void {
@@ -350,5 +350,5 @@ export function span_text(track: SpanTrack, one: Span): string {
     if (one.why) parts.push(one.why);
   }
   if (one.error !== undefined) parts.push(one.error);
-  return parts.filter((part) => part !== '').join(' · ');
+  return with_times(parts.filter((part) => part !== '').join(' · '));
 }
