@@ -71,6 +71,38 @@ test('a moment that is typed is gone to, and what is not a time is said', async 
   await page.close();
 });
 
+test('a moment within an instruction is said to be one: the CPU stands at the next', async () => {
+  const page = await open(chrome, plc.address);
+  await page.keyboard.press('g');
+  await page.keyboard.type('5.0001 ms');
+  await page.keyboard.press('Enter');
+  await page.waitForSelector('.notice.info');
+  const late = (await moment(page) - 5.0001) * 1000;
+  const [, said] = /^No instruction begins at 5\.000100 ms: this is the next one, ([\d.]+) µs later$/.exec(await page.textContent('.notice span'));
+  assert.ok(Math.abs(parseFloat(said) - late) < 0.01, `${said}, ${late}`);
+  await page.fill('#moment', await page.inputValue('#moment'));
+  await page.press('#moment', 'Enter');
+  await page.waitForSelector('.notice', { state: 'detached' });
+  await page.close();
+});
+
+test('a notice moves nothing, and lies over no pane', async () => {
+  const page = await open(chrome, plc.address, { viewport: { width: 1366, height: 650 } });
+  const boxes = () => page.$$eval('.pane', (all) => all.map((one) => JSON.stringify(one.getBoundingClientRect())));
+  const before = await boxes();
+  await page.fill('#moment', 'soon');
+  await page.press('#moment', 'Enter');
+  await page.waitForSelector('.notice.error');
+  assert.deepEqual(await boxes(), before);
+  const [top, bottom] = await page.evaluate(() => [document.querySelector('.notice').getBoundingClientRect().top,
+    Math.max(...[...document.querySelectorAll('.pane')].map((one) => one.getBoundingClientRect().bottom))]);
+  assert.ok(top >= bottom, `${top}, ${bottom}`);
+  await picture(page, 'frame_notice');
+  await page.click('[aria-label="Put away"]');
+  await page.waitForSelector('.notice', { state: 'detached' });
+  await page.close();
+});
+
 test('the toolbar is one row at 1366 pixels, with a scan of 8 digits and a moment to the nanosecond', async () => {
   for (const colorScheme of ['light', 'dark']) {
     const page = await open(chrome, plc.address, { colorScheme, viewport: { width: 1366, height: 768 } });
@@ -91,7 +123,7 @@ test('an address with a moment opens at that moment', async () => {
   const page = await open(chrome, `${plc.address}#t=7ms`);
   await page.waitForFunction(() => Math.abs(parseFloat(document.querySelector('#moment').value) - 7) < 1);
   await page.keyboard.press('l');
-  await page.waitForSelector('.notice.info');
+  await page.waitForSelector('.notice.info:has-text("Link to this moment")');
   assert.match(page.url(), /#t=\d+\.\d+ms$/);
   await page.close();
 });
@@ -102,6 +134,8 @@ test('the help lists each key once, and Escape closes it', async () => {
   await page.waitForSelector('[role=dialog]');
   const keys = await page.$$eval('.dialog kbd', (all) => all.map((one) => one.textContent));
   assert.equal(new Set(keys).size, keys.length);
+  const hidden = await page.$eval('.dialog', (dialog) => dialog.scrollHeight - dialog.clientHeight);
+  assert.equal(hidden, 0, 'all keys are seen at once');
   await picture(page, 'frame_help');
   await page.keyboard.press('Escape');
   await page.waitForSelector('[role=dialog]', { state: 'detached' });
@@ -136,8 +170,11 @@ test('dark, and a phone shows one pane at a time', async () => {
   await phone.click('.pane-tabs >> text=Timeline');
   await phone.waitForSelector('.timeline', { state: 'visible' });
   assert.equal(await phone.isVisible('.program'), false);
+  assert.match(await phone.innerText('.status-bar'), /scan \d+/);
   const wider = await phone.evaluate(() => document.documentElement.scrollWidth > innerWidth);
   assert.equal(wider, false);
+  await phone.click('#do-why');
+  await phone.waitForSelector('#pane-causes .trail', { state: 'visible' });
   await picture(phone, 'frame_phone');
   await phone.close();
 });

@@ -72,6 +72,14 @@ test('characters, frames and interrupts are tracks of the timeline', async () =>
   for (const name of ['port 0 received', 'port 0 sent', 'port 0 frames', 'INT 123', 'scans']) assert.ok(all.includes(name), `${name} in ${all}`);
 });
 
+test('all tracks of an exchange are in view on a laptop', async () => {
+  await page.setViewportSize({ width: 1366, height: 650 });
+  await page.waitForFunction(() => document.querySelectorAll('.track-name').length >= 11);
+  const hidden = await page.$eval('.tracks', (tracks) => [...tracks.querySelectorAll('.track-name')].filter((one) => one.getBoundingClientRect().bottom > tracks.getBoundingClientRect().bottom).length);
+  assert.equal(hidden, 0);
+  assert.ok(await page.$eval('.program', (program) => program.clientHeight > 240), 'and there is room for the program');
+});
+
 test('the search goes to the request without an answer', async () => {
   await page.keyboard.press('Escape');
   await page.evaluate(() => document.activeElement?.blur());

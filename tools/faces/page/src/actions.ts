@@ -1,6 +1,6 @@
 // Everything that one can do, once: buttons, keys and the help read this table.
 import { changed, notice, show_pane, state, type PaneName } from './state';
-import { command, go_to, move } from './session';
+import { command, go_to, go_to_named, move } from './session';
 import { pause, run } from './running';
 import { ask_why } from './causes';
 import { address_of } from './files';
@@ -52,7 +52,7 @@ function focus_field(which: string): void {
 export function go_to_typed(text: string): void {
   const ns = moment_from(text);
   if (ns === undefined) notice(`'${text}' is not a time; write for example 15.193ms, 2s or 1h`, 'error');
-  else void go_to(ns);
+  else void go_to_named(ns);
 }
 
 /** This moment in the address; of the playground its program too, if it is small. */

@@ -1,15 +1,15 @@
 // The page: connects to what runs the session, and renders what is known of it.
 import { h, render, type Part } from './dom';
 import { SocketEngine, WorkerEngine, type Engine, type Onlooker } from './engine';
-import { notified } from './session';
+import { notified, go_to_named } from './session';
 import { changed, on_change, state, use_engine } from './state';
 import { apply_theme, begin_theme, on_key } from './actions';
 import { toolbar } from './panes/toolbar';
-import { notice_bar, status_bar } from './panes/status_bar';
+import { status_bar } from './panes/status_bar';
 import { program_pane } from './panes/program';
 import { conversation_page } from './panes/conversation';
 import { side_pane } from './panes/side';
-import { timeline_pane } from './panes/timeline';
+import { room_of_tracks, timeline_pane } from './panes/timeline';
 import { pane_tabs } from './panes/tabs';
 import { load_chart } from './panes/chart';
 import { dialogs } from './panes/dialogs';
@@ -19,7 +19,6 @@ import { start_futures } from './futures';
 import { accept_drops, open_from_address } from './playground';
 import { open_report, opens_another_run } from './report';
 import { moment_of_link } from './words';
-import { go_to } from './session';
 
 const onlooker: Onlooker = {
   notified,
@@ -34,8 +33,8 @@ const onlooker: Onlooker = {
 function page(): (Part | null)[] {
   if (state.report?.conversation) return [...conversation_page(state.report.conversation), dialogs()];
   return [
-    toolbar(), notice_bar(),
-    h('main', { class: 'panes', 'data-pane': state.pane }, program_pane(), side_pane(), timeline_pane()),
+    toolbar(),
+    h('main', { class: 'panes', 'data-pane': state.pane, style: { '--tracks': `${room_of_tracks()}px` } }, program_pane(), side_pane(), timeline_pane()),
     pane_tabs(), status_bar(), menu(), dialogs(),
   ];
 }
@@ -96,7 +95,7 @@ function start(): void {
   addEventListener('hashchange', () => {
     if (opens_another_run()) return;
     const ns = moment_of_link(location.hash);
-    if (ns !== undefined && ns !== state.past?.now_ns) void go_to(ns);
+    if (ns !== undefined && ns !== state.past?.now_ns) void go_to_named(ns);
   });
   use_engine(engine());
   accept_drops();

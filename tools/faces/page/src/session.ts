@@ -5,7 +5,7 @@ import type { Hello, Line, Notification, Outline, Past, Reply, Status, Stopped, 
 import { is_one_word, query_of } from './formats';
 import { load_marks } from './marks';
 import { forget_pulses } from './pulses';
-import { moment_of_link, moment_word } from './words';
+import { duration_text, moment_of_link, moment_text, moment_word } from './words';
 
 /** Something that is seen: asked for again as soon as it may differ, one question at a time. */
 export class Seen {
@@ -206,9 +206,9 @@ function show_picture(): void {
 
 /** The moment that the address of the page names, once there is a session. */
 async function follow_link(): Promise<void> {
-  const asked = moment_of_link(location.hash) ?? state.first_moment ?? undefined;
+  const named = moment_of_link(location.hash), asked = named ?? state.first_moment ?? undefined;
   state.first_moment = null;
-  if (asked !== undefined && asked !== state.past?.now_ns) await go_to(asked);
+  if (asked !== undefined && asked !== state.past?.now_ns) await (named === undefined ? go_to : go_to_named)(asked);
 }
 
 /** The inputs and outputs of the program, its symbols and the first bytes of the CPU, as switches and lamps. */
@@ -271,7 +271,7 @@ function lines_to_say(text: string): string[] {
 
 const kLinesOfNotice = 3;
 
-/** A breakpoint, or the CPU gone to STOP: said above the panes. */
+/** A breakpoint, or the CPU gone to STOP: a notice. */
 export function say_why_stopped(reply: Reply<Stopped>): void {
   const why = reply.json?.stopped;
   if (why === 'stop point' || why === 'CPU')
@@ -330,4 +330,13 @@ export async function go_to(ns: number): Promise<void> {
   }
   if (state.past?.in_the_past) await move('at end');
   await move(`continue ${moment_word(wanted - newest)}`);
+}
+
+/** Goes to a moment that someone has named. The CPU stands between instructions only: it says so if none begins right then. */
+export async function go_to_named(ns: number): Promise<void> {
+  await go_to(ns);
+  const past = state.past, late_ns = (past?.now_ns ?? 0) - Math.max(0, Math.round(ns));
+  if (!past || late_ns <= 0 || state.notice) return;
+  const what = past.op === null ? 'the next moment at which the CPU can stand' : 'the next one';
+  notice(`No instruction begins at ${moment_text(ns)}: this is ${what}, ${duration_text(late_ns)} later`);
 }

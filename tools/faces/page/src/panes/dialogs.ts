@@ -12,7 +12,7 @@ function close(): void {
 
 function dialog(title: string, ...content: Child[]): Part {
   return h('div', { class: 'shade', onclick: (event: Event) => { if (event.target === event.currentTarget) close(); } },
-    h('div', { class: 'dialog', role: 'dialog', 'aria-modal': 'true', 'aria-label': title, tabindex: '-1',
+    h('div', { class: `dialog ${title.toLowerCase()}`, role: 'dialog', 'aria-modal': 'true', 'aria-label': title, tabindex: '-1',
       ref: (node: HTMLElement) => { if (!node.contains(document.activeElement)) node.focus(); } },
     h('header', {}, h('h2', {}, title), h('button', { class: 'plain', 'aria-label': 'Close', onclick: close }, icon('close'))),
     ...content));

@@ -25,14 +25,15 @@ export function status_bar(): Part {
   return h('footer', { class: 'status-bar' },
     h('span', { class: `connection ${state.connection}`, role: 'status', 'aria-live': 'polite' },
       kConnections[state.connection] + (state.connection === 'ended' && state.why_ended ? `: ${state.why_ended}` : '')),
+    h('span', { class: 'scan-here' }, state.past ? `scan ${state.past.scan}` : ''),
     h('span', { class: 'place' }, place()),
-    h('span', { class: 'printed' }, with_times(state.printed[state.printed.length - 1] ?? '')),
+    h('div', { class: 'printed' }, h('span', {}, with_times(state.printed[state.printed.length - 1] ?? '')), notice_bar()),
     h('button', { class: 'plain program-name', title: state.hello?.program ?? 'About this page', onclick: toggle_dialog('about') },
       state.hello ? `${state.hello.program.replace(/^.*[\\/]/, '')} · CPU ${state.hello.cpu}` : 's7200'));
 }
 
-/** What is wrong, or was done: above the panes until it is put away or something else is done. */
-export function notice_bar(): Part | null {
+/** What is wrong, or was done: over the status bar, where it moves no pane, until it is put away or something else is done. */
+function notice_bar(): Part | null {
   if (state.connection === 'lost')
     return h('div', { class: 'notice error', role: 'alert', key: 'lost' },
       'The connection to s7200 is lost. What you see is the last that was known; the page connects again by itself.');

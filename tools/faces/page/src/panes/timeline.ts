@@ -140,6 +140,15 @@ function tool(name: string, title: string, does: () => void, ...content: (Part |
   return h('button', { id: `timeline-${name}`, title, 'aria-label': title, onclick: does }, ...content);
 }
 
+const kHeader = 34;  // pixels: the tools above the tracks, and the pane's border
+let most_room = 0;
+
+/** What all tracks need. It does not become less while they come and go with the part that is shown. */
+export function room_of_tracks(): number {
+  most_room = Math.max(most_room, kHeader + height_of(rows_of(shown_spans(), 0)));
+  return most_room;
+}
+
 export function timeline_pane(): Part {
   const { from_ns, to_ns } = timeline.window_of();
   return h('section', { id: 'pane-timeline', class: 'pane timeline', 'aria-label': 'Timeline', tabindex: '-1' },
