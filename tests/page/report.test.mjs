@@ -286,6 +286,10 @@ test('a long recording is shown part by part, and what it says is text', async (
   assert.match(await page.textContent('.summary'), /<b>long\.log/);
   await page.click('[aria-label="Rows after"]');
   await page.waitForSelector('.rows-shown:has-text("501 to 1000 of 1200 frames")');
+  await page.emulateMedia({ media: 'print' });
+  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  assert.equal(await page.locator('.conversation-rows tbody tr').count(), 100);
+  assert.ok(await page.isVisible('.rows-shown:has-text("501 to 600 of 1200 frames")'), 'which of them are printed');
   await context.close();
 });
 
@@ -320,6 +324,28 @@ test('what is printed is light, whole, and as wide as the paper', async () => {
   await picture(page, 'report_on_paper');
   await page.evaluate(() => dispatchEvent(new Event('afterprint')));
   assert.equal(await theme(), 'dark');
+  await page.end();
+});
+
+test('of a long list a part is printed, and how many rows are left out', async () => {
+  const actions = Array.from({ length: 45 }, (_, i) => `set VW40=${i}; send 01 03 00 14 00 01 crc; continue 200ms`);
+  s7200(0, 'debug', kSlave, '-x', `continue 100ms; ${actions.join('; ')}`, '--report', file('many.html'));
+  const page = await open('many.html');
+  const print = async (on) => {
+    await page.emulateMedia({ media: on ? 'print' : 'screen' });
+    await page.evaluate((name) => dispatchEvent(new Event(name)), on ? 'beforeprint' : 'afterprint');
+  };
+  for (const [tab, all, left_out] of [['report', 90, 'and 60 more'], ['line', 45, 'and 15 before these'], ['causes', 90, 'and 60 before these']]) {
+    await page.click(`#tab-${tab}`);
+    await page.waitForFunction((all) => document.querySelectorAll('.exchanges tbody tr').length === all, all);
+    await print(true);
+    assert.equal(await page.locator('.exchanges tbody tr').count(), 30);
+    assert.ok(await page.isVisible(`.hint:has-text("${left_out}")`), left_out);
+    assert.equal(await page.isVisible('.side form'), false, 'what cannot be typed into is not printed');
+    await print(false);
+  }
+  await print(true);
+  assert.match(await page.textContent('.program > header'), /lines \d+ to \d+ of \d+/);
   await page.end();
 });
 

@@ -206,6 +206,13 @@ export function show_pane(pane: PaneName): void {
   changed();
 }
 
+export const kRowsOnPaper = 30;
+
+/** How many rows of a list are shown that shows so many on the screen: paper has fewer. What is left out is said below them. */
+export function rows_shown(on_screen: number): number {
+  return state.printing ? kRowsOnPaper : on_screen;
+}
+
 export function notice(text: string, kind: 'info' | 'error' = 'info'): void {
   state.notice = text === '' ? null : { text, kind };
   changed();

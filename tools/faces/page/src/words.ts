@@ -10,9 +10,9 @@ function fraction(value: number, digits: number): string {
 export const kInSeconds = 100 * kSecond, kAsClock = 3600 * kSecond;  // from where on moments are written so
 
 /** `102.605583 ms`, from 100 s on `123.456789 s`, from an hour on `1:30:00.000125`: down to the nanosecond or microsecond. */
-export function moment_text(ns: number): string {
+export function moment_text(ns: number, decimals_of_ms = 6): string {
   if (ns >= kAsClock) return clock_text(ns, 6);
-  return ns < kInSeconds ? `${fraction(ns / kMs, 6)} ms` : `${fraction(ns / kSecond, 6)} s`;
+  return ns < kInSeconds ? `${fraction(ns / kMs, decimals_of_ms)} ms` : `${fraction(ns / kSecond, 6)} s`;
 }
 
 /** What the session says, with times as the page writes them: its moments are in ms, however long, and its microseconds in us. */

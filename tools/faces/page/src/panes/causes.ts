@@ -3,7 +3,7 @@ import { h, type Child, type Part } from '../dom';
 import { ask_effect, ask_who, ask_why, ask_why_not, forget_trail, see_done } from '../causes';
 import { go_to, move } from '../session';
 import { switch_to, terminal_level } from '../switches';
-import { state, type TrailStep } from '../state';
+import { rows_shown, state, type TrailStep } from '../state';
 import { moment_text, with_times } from '../words';
 import type { Obstacle } from '../protocol';
 
@@ -73,10 +73,10 @@ function what_led_here(): Part | null {
   see_done();
   const done = state.done;
   if (!done) return null;
-  const more = done.count - done.actions.length;
+  const shown = done.actions.slice(-rows_shown(done.actions.length)).reverse(), more = done.count - shown.length;
   return h('section', { class: 'led-here', 'aria-label': 'What led here' }, h('h3', {}, 'What led here'),
     done.count === 0 ? h('p', { class: 'hint' }, 'Nothing was done from outside up to this moment.') : null,
-    h('table', { class: 'exchanges' }, h('tbody', {}, [...done.actions].reverse().map((one, i) => h('tr', { key: done.count - i },
+    h('table', { class: 'exchanges' }, h('tbody', {}, shown.map((one, i) => h('tr', { key: done.count - i },
       h('td', {}, h('button', { class: 'link', title: 'Go to this moment', onclick: () => void go_to(one.at_ns) }, moment_text(one.at_ns))),
       h('td', { class: 'frame' }, one.station ? `${one.station}: ` : '', one.text))))),
     more > 0 ? h('p', { class: 'hint' }, `and ${more} before these`) : null);

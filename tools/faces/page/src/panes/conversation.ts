@@ -2,12 +2,12 @@
 import { h, type Part } from '../dom';
 import { action, title_with_key } from '../actions';
 import { icon } from '../icons';
-import { changed } from '../state';
+import { changed, state } from '../state';
 import { duration_text, moment_text } from '../words';
 import { histogram } from './histogram';
 import type { DecodedConversation, DecodedFrame } from '../protocol';
 
-const kPage = 500;  // rows that are shown at once
+const kPage = 500, kOnPaper = 100;  // rows that are shown at once, and that are printed
 let filter = '', only_wrong = false, shown_from = 0;
 
 function is_trouble(one: DecodedFrame): boolean {
@@ -35,7 +35,7 @@ function us_text(us: number | null): string {
 
 function row(one: DecodedFrame, number: number): Part {
   return h('tr', { key: number, class: is_trouble(one) ? `${one.kind} trouble` : one.kind },
-    h('td', { class: 'number' }, one.at_us === null ? '' : moment_text(one.at_us * 1e3)),
+    h('td', { class: 'number' }, one.at_us === null ? '' : moment_text(one.at_us * 1e3, 3)),
     h('td', { class: 'number' }, us_text(one.silence_us)),
     h('td', {}, one.kind),
     h('td', { class: 'frame' }, spaced(one.bytes)),
@@ -68,7 +68,7 @@ export function conversation_page(conversation: DecodedConversation): Part[] {
   const fits = conversation.frames.map((one, number) => ({ one, number })).filter(({ one }) => matches(one));
   if (shown_from >= fits.length) shown_from = 0;
   const latencies = conversation.frames.flatMap((one) => (one.latency_us === null ? [] : [one.latency_us * 1e3]));
-  const last = Math.min(fits.length, shown_from + kPage);
+  const last = Math.min(fits.length, shown_from + (state.printing ? kOnPaper : kPage));
   return [
     h('header', { class: 'toolbar' }, h('h1', {}, 'Conversation'), h('div', { class: 'group right' },
       ['theme', 'about'].map((id) => h('button', { id: `do-${id}`, title: title_with_key(action(id)), 'aria-label': action(id).title, onclick: action(id).does }, id === 'theme' ? icon('theme') : 'About')))),
@@ -78,7 +78,7 @@ export function conversation_page(conversation: DecodedConversation): Part[] {
         h('input', { type: 'search', id: 'frame-filter', placeholder: 'Filter', 'aria-label': 'Filter', oninput: (event: Event) => { filter = (event.target as HTMLInputElement).value; changed(); } }),
         h('button', { 'aria-pressed': String(only_wrong), onclick: () => { only_wrong = !only_wrong; changed(); } }, 'Only trouble'),
         histogram(latencies), pager(fits.length),
-        h('span', { class: 'hint rows-shown' }, fits.length === 0 ? 'no frames' : `${shown_from + 1} to ${last} of ${fits.length} frames`)),
+        h('span', { class: 'hint rows-shown' }, fits.length === 0 ? 'no frames' : `${shown_from + 1} to ${last} of ${fits.length} frames${state.printing && filter !== '' ? ` with '${filter}'` : ''}`)),
       h('div', { class: 'conversation-rows' }, h('table', { class: 'exchanges' },
         h('thead', {}, h('tr', {}, ['At', 'Silence', '', 'Bytes', 'What it says', 'Latency', 'Place'].map((name) => h('th', {}, name)))),
         h('tbody', {}, fits.slice(shown_from, last).map(({ one, number }) => row(one, number)))))),

@@ -1,7 +1,7 @@
 // The line: a request to send, and what was asked and answered.
 import { h, type Part } from '../dom';
 import { command, go_to } from '../session';
-import { changed, state } from '../state';
+import { changed, rows_shown, state } from '../state';
 import { ask_why_latency, ask_why_unanswered } from '../causes';
 import { see_exchanges } from '../timeline/view';
 import { exchanges_of, is_overdue, is_unanswered, type Exchange } from '../exchanges';
@@ -58,18 +58,20 @@ export function line_pane(): Part {
   see_exchanges();
   const all = exchanges_of(state.exchanges, state.past?.now_ns ?? 0);
   const shown = filter === '' ? all : all.filter((one) => `${one.request} ${one.answer ?? 'no answer'} ${one.error ?? ''}`.toLowerCase().includes(filter.toLowerCase()));
+  const rows = shown.slice(-rows_shown(kShown)).reverse(), older = shown.length - rows.length;
   return h('div', { class: 'line-pane' },
     h('form', { class: 'send', onsubmit: (event: Event) => { event.preventDefault(); void send(state.send_text); } },
       h('input', { id: 'send-text', 'aria-label': 'Frame, text or request', value: state.send_text, placeholder: kExamples[0]!, list: 'requests', autocomplete: 'off', spellcheck: 'false',
         oninput: (event: Event) => { state.send_text = (event.target as HTMLInputElement).value; } }),
       h('button', { id: 'do-send' }, 'Send')),
     h('datalist', { id: 'requests' }, kExamples.map((one) => h('option', { value: one }))),
-    h('p', { class: 'hint' }, 'Hex, crc for the check, text in quotation marks; or a Modbus request: read 40011:2, write 40011=5'),
+    h('p', { class: 'hint send' }, 'Hex, crc for the check, text in quotation marks; or a Modbus request: read 40011:2, write 40011=5'),
     h('div', { class: 'chart-tools' },
       h('input', { type: 'search', placeholder: 'Filter', 'aria-label': 'Filter', oninput: (event: Event) => { filter = (event.target as HTMLInputElement).value; changed(); } }),
       h('button', { title: title_with_key(action('longest')), onclick: action('longest').does }, 'Longest answer'),
       histogram(latencies_of(all)), h('span', { class: 'hint' }, summary(all))),
     h('table', { class: 'exchanges' },
       h('thead', {}, h('tr', {}, ['Request at', 'Request', 'Answer', 'Latency'].map((name) => h('th', {}, name)))),
-      h('tbody', {}, shown.slice(-kShown).reverse().map((one, i) => row(one, i, all[all.indexOf(one) + 1])))));
+      h('tbody', {}, rows.map((one, i) => row(one, i, all[all.indexOf(one) + 1])))),
+    older > 0 ? h('p', { class: 'hint' }, `and ${older} before these`) : null);
 }

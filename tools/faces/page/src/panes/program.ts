@@ -151,9 +151,7 @@ function heading_lines(): Set<number> {
 
 function listing(): Part {
   const lines = state.outline?.lines ?? 0;
-  const height = scroller?.clientHeight ?? 600;
-  const first = Math.max(1, line_at_top() - kMore);
-  const last = Math.min(lines, line_at_top() + Math.ceil(height / kRow) + kMore);
+  const [first, last] = made_lines(lines);
   if (last >= first) queueMicrotask(() => see_lines(first, last));
   const headings = heading_lines(), selected = state.selected_line;
   const rows: Part[] = [];
@@ -171,6 +169,17 @@ function on_key(event: KeyboardEvent): void {
   event.preventDefault();
   event.stopPropagation();
   const line = Math.min(state.outline.lines, Math.max(1, (state.selected_line ?? state.past?.line ?? 1) + step));
+/** Which lines are made, and printed: those in view and a few around them. */
+function made_lines(lines: number): [number, number] {
+  const height = scroller?.clientHeight ?? 600;
+  return [Math.max(1, line_at_top() - kMore), Math.min(lines, line_at_top() + Math.ceil(height / kRow) + kMore)];
+}
+
+function printed_part(): string {
+  const lines = state.outline?.lines ?? 0, [first, last] = made_lines(lines);
+  return state.view === 'ladder' && state.has_ladder ? 'the networks in view' : first > 1 || last < lines ? `lines ${first} to ${last} of ${lines}` : '';
+}
+
   state.selected_line = line;
   const top = (line - 1) * kRow;
   if (scroller && (top < scroller.scrollTop || top > scroller.scrollTop + scroller.clientHeight - kRow)) scroll_to(line);
@@ -201,7 +210,7 @@ function content(): Part {
 
 export function program_pane(): Part {
   return h('section', { id: 'pane-program', class: 'pane program', 'aria-label': 'Program status', tabindex: '-1' },
-    h('header', {}, h('h2', {}, 'Program status'), block_choice(state.outline),
+    h('header', {}, h('h2', {}, 'Program status'), state.printing ? h('span', { class: 'small' }, printed_part()) : null, block_choice(state.outline),
       h('form', { class: 'find', onsubmit: (event: Event) => { event.preventDefault(); void find((event.target as HTMLElement).querySelector('input')!.value); } },
         h('input', { id: 'find', type: 'search', placeholder: 'Find (/)', 'aria-label': 'Find in the program', oninput: () => { found_at = 0; } })),
       h('button', { class: 'toggle', 'aria-pressed': String(state.follow), title: 'Show where the CPU stands (f)', onclick: () => { state.follow = !state.follow; followed = null; changed(); } }, 'Follow'),

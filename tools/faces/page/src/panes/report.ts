@@ -3,7 +3,7 @@ import { h, kept, type Child, type Part } from '../dom';
 import { ask_why } from '../causes';
 import { can_be_opened, choose_run } from '../report';
 import { go_to } from '../session';
-import { state } from '../state';
+import { kRowsOnPaper, state } from '../state';
 import { duration_text, moment_text } from '../words';
 import { linked } from './causes';
 import type { Recorded, Report, ReportedFinding, ReportedRun } from '../protocol';
@@ -109,14 +109,15 @@ function came_row(one: Came, i: number): Part {
 }
 
 /** With its moments: that is what brought the run where it is. */
-const table_of = kept((recorded: Recorded): Part => {
-  const all = all_that_came(recorded), more = all.slice(kListed).reduce((sum, one) => sum + one.count, 0);
-  return h('div', {}, h('h3', {}, 'From outside'), h('table', { class: 'exchanges' }, h('tbody', {}, all.slice(0, kListed).map(came_row))),
+function table_of(recorded: Recorded, most: number): Part {
+  const all = all_that_came(recorded), more = all.slice(most).reduce((sum, one) => sum + one.count, 0);
+  return h('div', {}, h('h3', {}, 'From outside'), h('table', { class: 'exchanges' }, h('tbody', {}, all.slice(0, most).map(came_row))),
     more > 0 ? h('p', { class: 'hint' }, `and ${more} more`) : null);
-});
+}
+const on_screen = kept((recorded: Recorded) => table_of(recorded, kListed)), on_paper = kept((recorded: Recorded) => table_of(recorded, kRowsOnPaper));
 
 function what_came(recorded: Recorded | undefined): Part | null {
-  return recorded && recorded.count > 0 ? table_of(recorded) : null;
+  return recorded && recorded.count > 0 ? (state.printing ? on_paper : on_screen)(recorded) : null;
 }
 
 /** How many answers there were in a long run, and the longest. */
