@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { browser, kDesktop, moment, picture } from './support.mjs';
+import { browser, kDesktop, kPhone, moment, picture } from './support.mjs';
 
 const kFile = `file://${process.env.PLAYGROUND}`;
 const exported = (name) => ({ name, text: readFileSync(path.join(process.env.SOURCE, 'tests/exports', name), 'utf8') });
@@ -71,6 +71,24 @@ test('the mistakes of a program are shown as check shows them, and lead to their
   await page.click('#do-scan');
   await page.waitForSelector('.row.op .flow:text-matches("[01]")');
   assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
+test('mistakes are beside the program, in whole sentences, how many there are first', async () => {
+  const page = await open();
+  await drop(page, { name: 'many.awl', text: 'ATCH   7, 99 // and a remark that goes on for longer than anybody would like to read\n'.repeat(12) + 'MEND\n' });
+  await page.waitForSelector('.diagnostics .error');
+  assert.match(await page.textContent('.diagnostics .total'), /^many\.awl: \d+ errors .*\d+ warnings/);
+  const sizes = await page.evaluate(() => {
+    const box = (name) => document.querySelector(name).getBoundingClientRect();
+    return { cut: [...document.querySelectorAll('.diagnostics .error')].filter((one) => one.scrollWidth > one.clientWidth).length,
+      beside: box('.diagnostics').left >= box('.opener textarea').right, height: box('.diagnostics').height / innerHeight };
+  });
+  assert.equal(sizes.cut, 0);
+  assert.ok(sizes.beside && sizes.height > 0.5, JSON.stringify(sizes));
+  await picture(page, 'playground_many_mistakes');
+  await page.setViewportSize(kPhone);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing is wider than the phone');
   await page.close();
 });
 

@@ -6,7 +6,7 @@ import { changed, on_change, state, use_engine } from './state';
 import { apply_theme, begin_theme, on_key } from './actions';
 import { toolbar } from './panes/toolbar';
 import { status_bar } from './panes/status_bar';
-import { program_pane } from './panes/program';
+import { is_opener_shown, program_pane } from './panes/program';
 import { conversation_page } from './panes/conversation';
 import { side_pane } from './panes/side';
 import { room_of_tracks, timeline_pane } from './panes/timeline';
@@ -34,7 +34,7 @@ function page(): (Part | null)[] {
   if (state.report?.conversation) return [...conversation_page(state.report.conversation), dialogs()];
   return [
     toolbar(),
-    h('main', { class: 'panes', 'data-pane': state.pane, style: { '--tracks': `${room_of_tracks()}px` } }, program_pane(), side_pane(), timeline_pane()),
+    h('main', { class: is_opener_shown() ? 'panes opening' : 'panes', 'data-pane': state.pane, style: { '--tracks': `${room_of_tracks()}px` } }, program_pane(), side_pane(), timeline_pane()),
     pane_tabs(), status_bar(), menu(), dialogs(),
   ];
 }

@@ -44,11 +44,18 @@ function show_line(number: number): void {
 
 const kPlace = /^(.*):(\d+):\d+: (error|warning): /;
 
+/** A source line and the marks below it keep their columns: `VW100, VB2` and `^~~~~`. Sentences go on in the next line. */
+function keeps_columns(line: string, before: string | undefined, after: string | undefined): boolean {
+  const is_mark = (text: string | undefined): boolean => text !== undefined && /^\s*\^~*\s*$/.test(text);
+  return is_mark(line) || is_mark(after) || (kPlace.test(before ?? '') && line.trim() !== '' && !/^(hint|note): /.test(line));
+}
+
 function said(): Part | null {
   if (state.check_text === '') return null;
-  return h('pre', { class: 'diagnostics', role: 'status', 'aria-label': 'What check says' }, state.check_text.trimEnd().split('\n').map((line) => {
+  const said_lines = state.check_text.trimEnd().split('\n'), summary = said_lines.pop()!;
+  return h('pre', { class: 'diagnostics', role: 'status', 'aria-label': 'What check says' }, h('div', { class: 'total' }, summary), said_lines.map((line, i, all) => {
     const place = kPlace.exec(line);
-    if (!place) return h('div', {}, line === '' ? ' ' : line);
+    if (!place) return h('div', { class: keeps_columns(line, all[i - 1], all[i + 1]) ? 'columns' : '' }, line === '' ? ' ' : line);
     const shows = place[1] === state.sources[0]?.name ? () => show_line(Number(place[2])) : undefined;
     return h(shows ? 'button' : 'div', { class: `${place[3]}${shows ? ' leads' : ''}`, title: shows ? 'Show the line' : '', onclick: shows }, line);
   }));
@@ -68,6 +75,5 @@ export function opener(): Part {
         h('option', { value: '', selected: state.cpu === '' }, 'PLC type: found'), kCpus.map((cpu) => h('option', { value: cpu, selected: state.cpu === cpu }, `CPU ${cpu}`))),
       h('button', { id: 'check-and-run', onclick: () => void open_program() }, icon('run'), 'Check and run')),
     h('p', { class: 'hint' }, 'Drop an .awl or STL listing here, with its symbol table and data block; or type a program. Nothing leaves this PC.'),
-    said(),
-    h('textarea', { 'aria-label': 'Program', spellcheck: 'false', value: program_text(), oninput: (event: Event) => type_program((event.target as HTMLTextAreaElement).value) }));
+    h('div', { class: 'opener-work' }, said(), h('textarea', { 'aria-label': 'Program', spellcheck: 'false', wrap: 'off', value: program_text(), oninput: (event: Event) => type_program((event.target as HTMLTextAreaElement).value) })));
 }

@@ -203,7 +203,7 @@ function view_button(view: 'stl' | 'ladder', name: string): Part {
 }
 
 function content(): Part {
-  if (can_open() && (state.opening || (state.outline === null && !state.report))) return opener();
+  if (is_opener_shown()) return opener();
   if (state.outline === null) return h('p', { class: 'empty' }, 'Waiting for the program …');
   return state.view === 'ladder' && state.has_ladder ? ladder_view() : listing();
 }
@@ -218,3 +218,8 @@ export function program_pane(): Part {
       !state.has_ladder ? null : h('div', { class: 'choice', role: 'group', 'aria-label': 'View' }, view_button('stl', 'STL'), view_button('ladder', 'LAD'))),
     content());
 }
+/** A program is typed or chosen: there is nothing else to see. */
+export function is_opener_shown(): boolean {
+  return can_open() && (state.opening || (state.outline === null && !state.report));
+}
+
