@@ -42,6 +42,19 @@ test('networks and comments are there, and power flow with values once it has ru
   await page.close();
 });
 
+test('further files have their names in the listing, their own line numbers, and are jumped to', async () => {
+  const page = await open(chrome, await start(...kPump));
+  await page.selectOption('.navigator', { label: kPump[1] });
+  const first = page.locator('.row.file-begin', { hasText: 'Symbol' });
+  await first.waitFor();
+  assert.match(await first.locator('.file-name').textContent(), /pump_symbols\.txt$/);
+  assert.equal(await first.locator('.number').textContent(), '1');
+  assert.equal(await row(page, 'Always_On\tSM0.0').locator('.number').textContent(), '2');
+  assert.equal(await page.locator('.row', { hasText: 'END_INTERRUPT_BLOCK' }).locator('.number').textContent(), '63');
+  await picture(page, 'program_files');
+  await page.close();
+});
+
 test('a click in the margin sets a breakpoint, and the run stops there', async () => {
   const page = await open(chrome, await start(...kPump));
   const wanted = row(page, 'INCD');

@@ -145,6 +145,8 @@ export interface ProgramSymbol {
 
 export interface Outline {
   program: string;
+  /** The program first; the lines of each file follow those of the one before it. */
+  files: { line: number; name: string }[];
   cpu: string;
   lines: number;
   ops: number;

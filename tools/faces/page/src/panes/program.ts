@@ -121,10 +121,11 @@ function row(number: number, headings: Set<number>): Part {
   const op = line?.op ?? null;
   const execution = op === null ? undefined : state.executions.get(op);
   const here = state.past?.line === number;
+  const file = file_of(number), begins_file = file !== undefined && file.line === number;
   const stop = state.breakpoints.has(number);
   const flow = execution ? (execution.powerFlow ? 'flows' : 'dead') : 'never';
   const classes = ['row', here ? 'here' : '', headings.has(number) ? 'heading' : '', op !== null ? `op ${flow}` : '',
-    state.selected_line === number ? 'selected' : ''].filter(Boolean).join(' ');
+    state.selected_line === number ? 'selected' : '', begins_file ? 'file-begin' : ''].filter(Boolean).join(' ');
   const age = execution && state.past ? state.past.now_ns - execution.at_ns : 0;
   return h('div', { class: classes, key: number, id: `line-${number}`, style: { top: `${(number - 1) * kRow}px` }, role: 'row', 'aria-rowindex': number,
     'aria-selected': String(state.selected_line === number),
@@ -133,11 +134,17 @@ function row(number: number, headings: Set<number>): Part {
   h('span', { class: `margin${stop ? ' stop' : ''}`, role: 'button', 'aria-label': `${stop ? 'Remove' : 'Set'} breakpoint in line ${number}`,
     title: op === null ? '' : 'Click: breakpoint', onclick: (event: Event) => { event.stopPropagation(); void toggle_breakpoint(number); } },
   stop ? '●' : '', here ? h('span', { class: 'arrow' }, '➤') : null),
-  h('span', { class: 'number', role: 'rowheader' }, String(number)),
+  h('span', { class: 'number', role: 'rowheader' }, String(number - (file?.line ?? 1) + 1)),
   h('span', { class: 'flow', role: 'gridcell', 'aria-label': execution ? `power flow ${execution.powerFlow ? 1 : 0}` : undefined, title: execution ? `power flow ${execution.powerFlow ? 1 : 0}; executed ${duration_text(age)} ago, at ${moment_text(execution.at_ns)}` : '' },
     execution ? (execution.top ? '1' : '0') : ''),
   h('span', { class: 'text', role: 'gridcell' }, line ? text_of(line, execution) : '…'),
+  begins_file ? h('span', { class: 'file-name', role: 'gridcell' }, file.name) : null,
   execution && line ? h('span', { class: 'values', role: 'gridcell' }, values_of(line, execution)) : null);
+}
+
+/** The file after the first that a line is in, a symbol table or a data block; its lines count from 1. */
+function file_of(line: number): Outline['files'][number] | undefined {
+  return state.outline?.files.slice(1).filter((one) => one.line <= line).pop();
 }
 
 function heading_lines(): Set<number> {
@@ -162,13 +169,6 @@ function listing(): Part {
   h('div', { class: 'rows', style: { height: `${lines * kRow}px` } }, rows));
 }
 
-function on_key(event: KeyboardEvent): void {
-  if (event.key === 'Enter' && event.target === event.currentTarget) go_to_execution(state.lines.get(state.selected_line ?? 0));
-  const step = { ArrowUp: -1, ArrowDown: 1, PageUp: -20, PageDown: 20 }[event.key];
-  if (step === undefined || !state.outline) return;
-  event.preventDefault();
-  event.stopPropagation();
-  const line = Math.min(state.outline.lines, Math.max(1, (state.selected_line ?? state.past?.line ?? 1) + step));
 /** Which lines are made, and printed: those in view and a few around them. */
 function made_lines(lines: number): [number, number] {
   const height = scroller?.clientHeight ?? 600;
@@ -180,26 +180,47 @@ function printed_part(): string {
   return state.view === 'ladder' && state.has_ladder ? 'the networks in view' : first > 1 || last < lines ? `lines ${first} to ${last} of ${lines}` : '';
 }
 
+function on_key(event: KeyboardEvent): void {
+  if (event.key === 'Enter' && event.target === event.currentTarget) go_to_execution(state.lines.get(state.selected_line ?? 0));
+  const step = { ArrowUp: -1, ArrowDown: 1, PageUp: -20, PageDown: 20 }[event.key];
+  if (step === undefined || !state.outline) return;
+  event.preventDefault();
+  event.stopPropagation();
+  const line = Math.min(state.outline.lines, Math.max(1, (state.selected_line ?? state.past?.line ?? 1) + step));
   state.selected_line = line;
   const top = (line - 1) * kRow;
   if (scroller && (top < scroller.scrollTop || top > scroller.scrollTop + scroller.clientHeight - kRow)) scroll_to(line);
   changed();
 }
 
-/** Blocks and networks to jump to. */
+/** Further files have no ladder. */
+function show_place(place: string): void {
+  const file = /^file (\d+)$/.exec(place);
+  if (file) state.view = 'stl';
+  if (file) scroll_to(Number(file[1]));
+  else (state.view === 'ladder' ? show_in_ladder : scroll_to)(Number(place));
+}
+
+/** Blocks, networks and further files to jump to. */
 const block_choice = kept((outline: Outline | null): Part =>
   h('select', { class: 'navigator', 'aria-label': 'Go to block or network', value: '', onchange: (event: Event) => {
     const field = event.target as HTMLSelectElement;
-    if (field.value !== '') (state.view === 'ladder' ? show_in_ladder : scroll_to)(Number(field.value));
+    if (field.value !== '') show_place(field.value);
     field.value = '';
   } }, h('option', { value: '' }, 'Block, network …'),
   (outline?.routines ?? []).map((routine) => h('optgroup', { label: routine.name }, [
     h('option', { value: String(Math.min(routine.line, routine.networks[0]?.line ?? routine.line)) }, routine.name),
     ...routine.networks.filter((one) => one.number !== null).map((one) =>
-      h('option', { value: String(one.line) }, `Network ${one.number}${one.title ? `  ${one.title}` : ''}`))]))));
+      h('option', { value: String(one.line) }, `Network ${one.number}${one.title ? `  ${one.title}` : ''}`))])),
+  (outline?.files.length ?? 0) < 2 ? null : h('optgroup', { label: 'Further files' }, outline!.files.slice(1).map((one) => h('option', { value: `file ${one.line}` }, one.name)))));
 
 function view_button(view: 'stl' | 'ladder', name: string): Part {
   return h('button', { 'aria-pressed': String(state.view === view), onclick: () => { state.view = view; changed(); } }, name);
+}
+
+/** A program is typed or chosen: there is nothing else to see. */
+export function is_opener_shown(): boolean {
+  return can_open() && (state.opening || (state.outline === null && !state.report));
 }
 
 function content(): Part {
@@ -218,8 +239,3 @@ export function program_pane(): Part {
       !state.has_ladder ? null : h('div', { class: 'choice', role: 'group', 'aria-label': 'View' }, view_button('stl', 'STL'), view_button('ladder', 'LAD'))),
     content());
 }
-/** A program is typed or chosen: there is nothing else to see. */
-export function is_opener_shown(): boolean {
-  return can_open() && (state.opening || (state.outline === null && !state.report));
-}
-
