@@ -175,9 +175,9 @@ test('the bits of a character are those of the line', () => {
 
 test('files are read as they are encoded', () => {
   const bytes = (...all) => Uint8Array.from(all);
-  assert.equal(parts.decoded(bytes(0xff, 0xfe, 0x4c, 0, 0x44, 0)), 'LD');
-  assert.equal(parts.decoded(bytes(0x50, 0xc3, 0xbc)), 'Pü');
-  assert.equal(parts.decoded(bytes(0x50, 0xfc)), 'Pü', 'Windows-1252, as Micro/WIN exports');
+  assert.deepEqual(parts.source_of('a', bytes(0xff, 0xfe, 0x4c, 0, 0x44, 0)), { name: 'a', text: 'LD' });
+  assert.deepEqual(parts.source_of('a', bytes(0x50, 0xc3, 0xbc)), { name: 'a', text: 'Pü' });
+  assert.deepEqual(parts.source_of('a', bytes(0x50, 0xfc, 0x0a)), { name: 'a', text: 'Pü\n', hex: '50fc0a' }, 'the session finds out its code page');
 });
 
 test('a small program fits into an address and comes back, a damaged address brings nothing', async () => {

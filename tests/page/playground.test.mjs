@@ -25,7 +25,7 @@ async function open(address = kFile) {
 function drop(page, ...files) {
   return page.evaluate((files) => {
     const dataTransfer = new DataTransfer();
-    for (const { name, text } of files) dataTransfer.items.add(new File([text], name));
+    for (const { name, text, bytes } of files) dataTransfer.items.add(new File([bytes ? new Uint8Array(bytes) : text], name));
     dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
   }, files);
 }
@@ -105,6 +105,25 @@ test('a program is typed, run as fast as it goes, and paused', async () => {
   await page.click('#open-program');
   await page.waitForSelector('.opener textarea');
   assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
+test('a file in another code page is read as the command reads it, a document is refused', async () => {
+  const page = await open();
+  const pump = [0xcd, 0xe0, 0xf1, 0xee, 0xf1], stop = [0xd1, 0xf2, 0xee, 0xef];  // Насос, Стоп in Windows-1251
+  const text = (words) => [...Buffer.from(words)];
+  await drop(page, { name: 'russian.awl', bytes: [...text('NETWORK 1 // '), ...pump, ...text(' '), ...stop, ...text('\nLD     I0.0\n=      Q0.0\nMEND\n')] });
+  await page.waitForSelector('.row:has-text("Насос Стоп")');
+  await page.click('#open-program');
+  assert.match(await page.inputValue('.opener textarea'), /Насос Стоп/, 'where it is edited too');
+  await page.click('#check-and-run');
+  await page.waitForSelector('.row:has-text("Насос Стоп")');
+  await drop(page, { name: 'manual.doc', bytes: [0xd0, 0xcf, 0x11, 0xe0, 0xa1, 0xb1, 0x1a, 0xe1, 0, 0] });
+  await page.waitForSelector('.notice.error:has-text("cannot read manual.doc: ")');
+  await page.waitForSelector('.row:has-text("Насос Стоп")');
+  await page.click('#open-program');
+  await page.waitForSelector('.file');
+  assert.deepEqual(await page.locator('.file').allTextContents(), ['russian.awl'], 'it is not kept');
   await page.close();
 });
 

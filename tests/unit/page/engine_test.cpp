@@ -64,6 +64,22 @@ TEST(Engine, RefusesAnOptionThatItDoesNotKnow) {
   EXPECT_TRUE(error.starts_with("memory: there is no option 'memory' here; there are cpu, times, repair, port, ")) << error;
 }
 
+TEST(Engine, FindsOutTheEncodingOfASourceInHex) {
+  Page page;
+  const auto open = [&page](const std::string& hex) {
+    return page.take({{"id", 1}, {"open", {{"sources", {{{"name", "p.awl"}, {"hex", hex}}}}, {"options", Json::object()}}}});
+  };
+  const Json reply = open("4c44204930 2e30202f2f20cde0f1eef1 0a4d454e440a");
+  EXPECT_EQ(reply["error"], "a source has a name, and text or hex") << "blanks are no hex";
+  const Json json = open("4c442049302e30202f2f20cde0f1eef1202d20d1f2eeef0a4d454e440a")["json"];
+  EXPECT_EQ(json["opened"], true);
+  EXPECT_EQ(json["sources"],
+            (Json::array({{{"name", "p.awl"}, {"text", "LD I0.0 // Насос - Стоп\nMEND\n"}, {"encoding", "Windows-1251"}}})));
+  EXPECT_EQ(page("listing 1 1")["json"]["text"][0]["text"], "LD I0.0 // Насос - Стоп");
+  const std::string error = open("d0cf11e0a1b11ae10000")["error"];
+  EXPECT_TRUE(error.starts_with("cannot read p.awl: an OLE file")) << error;
+}
+
 TEST(Engine, RefusesARecordingThatIsDamaged) {
   Page page;
   const Json damaged{{"actions", Json::array()}, {"count", 1}, {"done", {{"action", {3}}}}};

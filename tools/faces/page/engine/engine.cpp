@@ -11,8 +11,10 @@
 #include "interpreter/program/load.hpp"
 #include "interpreter/program/loading/cpu_choice.hpp"
 #include "interpreter/program/loading/slips.hpp"
+#include "interpreter/stl/text/encoding.hpp"
 #include "tools/faces/page/engine/carried_system.hpp"
 #include "tools/faces/page/engine/surroundings.hpp"
+#include "tools/json/hex_bytes.hpp"
 #include "tools/json/json_text.hpp"
 #include "tools/session/commands/answers/recording_json.hpp"
 #include "tools/views/program/check_report.hpp"
@@ -37,13 +39,35 @@ const Json& member_or_null(const Json& map, const char* key) {
   return found == map.end() ? kNull : *found;
 }
 
+/// The bytes of a source: its `text`, or its `hex` if it is not UTF-8.
+Result<std::string> bytes_of(const Json& source) {
+  if (const std::string* const text = text_at(source, "text")) return *text;
+  const std::string* const hex = text_at(source, "hex");
+  auto bytes = hex ? bytes_of_hex(*hex) : std::nullopt;
+  if (!bytes) return Trouble{"a source has a name, and text or hex"};
+  return std::move(*bytes);
+}
+
+/// The sources that were in hex, as texts: in which encoding they are is found out here.
+Json decoded_sources(const Json& sources) {
+  Json decoded = Json::array();
+  for (const Json& source : sources) {
+    if (!text_at(source, "hex")) continue;
+    const auto text = bytes_of(source).and_then(stl::decode);
+    if (text) decoded.push_back({{"name", *text_at(source, "name")}, {"text", text->text}, {"encoding", text->encoding}});
+  }
+  return decoded;
+}
+
 /// The sources of a message as one program. Trouble if one of them cannot be read.
 Result<SourceText> read_sources(const Json& sources) {
   std::vector<SourceText> files;
   for (const Json& source : sources) {
-    const std::string *const name = text_at(source, "name"), *const text = text_at(source, "text");
-    if (!name || !text) return Trouble{"a source has a name and a text"};
-    auto file = read_source(*text, *name);
+    const std::string* const name = text_at(source, "name");
+    if (!name) return Trouble{"a source has a name, and text or hex"};
+    const auto bytes = bytes_of(source);
+    if (!bytes) return bytes.trouble();
+    auto file = read_source(*bytes, *name);
     if (!file) return trouble("cannot read {}: {}", stl::printable(*name), file.why());
     files.push_back(std::move(*file));
   }
@@ -130,6 +154,7 @@ void Engine::open_program(const Json& wanted, const Json& id) {
   Json report = check_json(text->parsed.source.name, *text, result, *model, others);
   report["text"] = stl::render(result.diagnostics, result.source, false) + check_summary(*text, result, *model, others);
   report["opened"] = result.program != nullptr;
+  report["sources"] = decoded_sources(member_or_null(wanted, "sources"));
   if (result.program)
     if (const auto done = begin(std::move(result.program), wanted); !done) return refuse(done.why());
   send_(line_of({{"id", id}, {"text", report["text"]}, {"json", report}, {"moved", report["opened"]}}));

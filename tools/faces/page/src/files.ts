@@ -1,19 +1,19 @@
 // Files as Micro/WIN and editors write them, as text; and a small program within an address.
 import type { Source } from './protocol';
 
-/** UTF-16 and UTF-8 by their marks, UTF-8 if it is valid, else the code page of Western Windows. */
-export function decoded(bytes: Uint8Array): string {
-  if (bytes[0] === 0xff && bytes[1] === 0xfe) return new TextDecoder('utf-16le').decode(bytes);
-  if (bytes[0] === 0xfe && bytes[1] === 0xff) return new TextDecoder('utf-16be').decode(bytes);
+/** UTF-16 and UTF-8 by their marks, UTF-8 if it is valid. What else it may be, a code page or no text at all, the session finds out. */
+export function source_of(name: string, bytes: Uint8Array): Source {
+  if (bytes[0] === 0xff && bytes[1] === 0xfe) return { name, text: new TextDecoder('utf-16le').decode(bytes) };
+  if (bytes[0] === 0xfe && bytes[1] === 0xff) return { name, text: new TextDecoder('utf-16be').decode(bytes) };
   try {
-    return new TextDecoder('utf-8', { fatal: true }).decode(bytes);
+    return { name, text: new TextDecoder('utf-8', { fatal: true }).decode(bytes) };
   } catch {
-    return new TextDecoder('windows-1252').decode(bytes);
+    return { name, text: new TextDecoder('windows-1252').decode(bytes), hex: Array.from(bytes, (byte) => byte.toString(16).padStart(2, '0')).join('') };
   }
 }
 
 export async function sources_of(files: Iterable<File>): Promise<Source[]> {
-  const all = await Promise.all([...files].map(async (file) => ({ name: file.name, text: decoded(new Uint8Array(await file.arrayBuffer())) })));
+  const all = await Promise.all([...files].map(async (file) => source_of(file.name, new Uint8Array(await file.arrayBuffer()))));
   return all.sort((a, b) => rank(a) - rank(b));
 }
 

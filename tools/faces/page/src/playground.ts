@@ -7,6 +7,15 @@ export function can_open(): boolean {
   return the_engine().open !== undefined;
 }
 
+/** A file that is no text, a document perhaps, is not kept: what was there before it still is. */
+function leave_out_unreadable(error: string): void {
+  const kept = state.sources.filter((one) => !error.startsWith(`cannot read ${one.name}: `));
+  if (kept.length === state.sources.length) return;
+  state.sources = kept;
+  state.opening = state.outline === null;
+  changed();
+}
+
 /** Checks the program; if it is fine there is a session, which says hello by itself. */
 export async function open_program(): Promise<void> {
   const engine = the_engine();
@@ -15,11 +24,15 @@ export async function open_program(): Promise<void> {
     notice('There is no program yet: drop one on the page, or type it');
     return;
   }
-  const reply = await engine.open({ sources: state.sources, options: state.cpu === '' ? {} : { cpu: state.cpu } });
+  const sources = state.sources.map(({ name, text, hex }) => (hex === undefined ? { name, text } : { name, hex }));
+  const reply = await engine.open({ sources, options: state.cpu === '' ? {} : { cpu: state.cpu } });
   if (reply.error !== undefined || !reply.json) {
     notice(reply.error ?? 'the program could not be opened', 'error');
+    leave_out_unreadable(reply.error ?? '');
     return;
   }
+  const read = new Map(reply.json.sources?.map(({ name, text }) => [name, text]));
+  state.sources = state.sources.map((one) => (one.hex === undefined ? one : { name: one.name, text: read.get(one.name) ?? one.text }));
   state.check_text = reply.json.text;
   state.opening = !reply.json.opened;
   changed();

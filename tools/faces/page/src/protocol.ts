@@ -54,7 +54,7 @@ export interface CarriedSystem {
 }
 
 /** What an engine can open. */
-export type Openable = { sources: Source[]; options: Record<string, unknown> } | { system: CarriedSystem };
+export type Openable = { sources: (Source | { name: string; hex: string })[]; options: Record<string, unknown> } | { system: CarriedSystem };
 
 /** A report: each program once, systems, and what ran. */
 export interface Report {
@@ -312,12 +312,16 @@ export interface Diagnostic {
 export interface Source {
   name: string;
   text: string;
+  /** The bytes of a file that is not UTF-8; its text is a guess until the session has read them. */
+  hex?: string;
 }
 
 export interface Opened {
   diagnostics: Diagnostic[];
   text: string;
   opened: boolean;
+  /** Those that were sent in hex, as texts. */
+  sources?: (Source & { encoding: string })[];
 }
 
 /** A network as ladder: places are columns of characters and rows of lines; the power rail is column 0 and point 0. */

@@ -53,11 +53,10 @@ export async function open_run(number: number, recording?: number, at_ns?: numbe
   const recorded = run.recordings![which]!;
   const end_ns = recorded.end[2];
   state.recording = which;
-  const what = what_ran(report, run);
-  state.sources = 'sources' in what ? what.sources : [];
+  state.sources = run.system === undefined ? report.programs[run.program!]! : [];
   state.picture = recorded.picture ?? null;
   state.first_moment = at_ns ?? (finding?.recording === which ? finding.at_ns! : end_ns <= kShort ? end_ns : 0);
-  const reply = await the_engine().open!(what, recorded);
+  const reply = await the_engine().open!(what_ran(report, run), recorded);
   if (reply.error !== undefined || !reply.json?.opened) notice(reply.error ?? 'the run cannot be opened', 'error');
 }
 
