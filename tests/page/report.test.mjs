@@ -208,7 +208,7 @@ test('what is sent with many tables of times has the run of the first with which
   s7200(0, 'send', kSlave, '--crc', '0103000a0002', '--times-band', '5', '--report', file('band.html'));
   const page = await open('band.html');
   await page.click('#tab-line');
-  await page.waitForSelector('.exchanges tbody tr');
+  await page.waitForSelector('.line-pane .exchanges tbody tr');
   assert.equal(await page.locator('.exchanges tbody tr').count(), 1);
   await page.end();
 });
