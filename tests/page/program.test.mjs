@@ -42,6 +42,24 @@ test('networks and comments are there, and power flow with values once it has ru
   await page.close();
 });
 
+test('the status bar says values as listing, ladder and chart do', async () => {
+  const program = path.join(kFolder, 'moves.awl');
+  writeFileSync(program, 'NETWORK 1\nLD     SM0.0\nMOVW   4660, VW100\nMEND\n');
+  const page = await open(chrome, await start(program));
+  await page.fill('#add-address', 'VW100');
+  await page.press('#add-address', 'Enter');
+  const shown = (text) => Promise.all([page.waitForFunction((text) => document.querySelector('.printed').textContent.includes(`VW100=${text}`), text),
+    page.waitForSelector(`.row .value:has-text("VW100=${text}")`)]);
+  await page.click('#do-step');
+  await page.click('#do-step');
+  await shown('4660');
+  await page.selectOption('[aria-label="Format of VW100"]', 'hex');
+  await shown('16#1234');
+  await page.click('text=LAD');
+  await page.waitForSelector('.ladder-values:has-text("VW100=16#1234")');
+  await page.close();
+});
+
 test('further files have their names in the listing, their own line numbers, and are jumped to', async () => {
   const page = await open(chrome, await start(...kPump));
   await page.selectOption('.navigator', { label: kPump[1] });

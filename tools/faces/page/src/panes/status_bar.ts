@@ -4,6 +4,7 @@ import { changed, state } from '../state';
 import { icon } from '../icons';
 import { toggle_dialog } from '../actions';
 import { can_open } from '../playground';
+import { in_formats } from '../formats';
 import { with_times } from '../words';
 
 const kConnections = {
@@ -27,7 +28,7 @@ export function status_bar(): Part {
       kConnections[state.connection] + (state.connection === 'ended' && state.why_ended ? `: ${state.why_ended}` : '')),
     h('span', { class: 'scan-here' }, state.past ? `scan ${state.past.scan}` : ''),
     h('span', { class: 'place' }, place()),
-    h('div', { class: 'printed' }, h('span', {}, with_times(state.printed[state.printed.length - 1] ?? '')), notice_bar()),
+    h('div', { class: 'printed' }, h('span', {}, in_formats(with_times(state.printed[state.printed.length - 1] ?? ''))), notice_bar()),
     h('button', { class: 'plain program-name', title: state.hello?.program ?? 'About this page', onclick: toggle_dialog('about') },
       state.hello ? `${state.hello.program.replace(/^.*[\\/]/, '')} · CPU ${state.hello.cpu}` : 's7200'));
 }
