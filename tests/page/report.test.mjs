@@ -56,6 +56,22 @@ test('an exchange is in its report, to the instant', async () => {
   await page.end();
 });
 
+test('a request without an answer is in the summary, and has none wherever one stands', async () => {
+  s7200(1, 'send', kSlave, '01 03 00 0a 00 02 00 00', '--report', file('lost.html'));
+  const page = await open('lost.html');
+  await page.waitForSelector('.summary .unanswered:has-text("01 03 00 0a 00 02 00 00")');
+  await stands_at(page, 181, 2);
+  await page.click('.summary .unanswered .why');
+  await page.waitForSelector('.trail:has-text("JMP 255 in line 141")');
+  await page.click('#tab-line');
+  await page.click('.exchanges tbody .link');
+  await stands_at(page, 71);
+  await page.waitForTimeout(500);
+  assert.match(await page.textContent('.exchanges tr.trouble'), /no answerWhy\?/);
+  assert.match(await page.textContent('.line-pane'), /1 request, 1 without an answer/);
+  await page.end();
+});
+
 test('the address names the moment', async () => {
   const page = await open('send.html', { hash: '#t=60.5ms' });
   await stands_at(page, 60.5);

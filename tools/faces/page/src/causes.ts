@@ -40,7 +40,7 @@ export function ask_effect(address: string): Promise<void> {
 const kShownBytes = 12;
 
 /** A frame by its first bytes, and what it says. */
-function in_short(frame: string): string {
+export function in_short(frame: string): string {
   const parts = /^((?:[0-9a-f]{2} ?)+)(.*)$/s.exec(frame), bytes = parts?.[1]!.trim().split(' ') ?? [];
   return bytes.length <= kShownBytes ? frame : `${bytes.slice(0, kShownBytes).join(' ')} …${parts![2]}`;
 }
@@ -52,11 +52,14 @@ async function look_from(station: string): Promise<void> {
 
 const kAfterRequest = 100e6;  // ns after a request, when the program has made up its mind about it
 
-/** Why a request had no answer, as it is known a little after it and before the next one. */
-export async function ask_why_unanswered(one: Exchange, next: Exchange | undefined): Promise<void> {
-  const newest = state.past?.newest_ns ?? 0;
+/** A little after a request and before the next one it is known why it had no answer. */
+export async function go_to_verdict(one: Exchange): Promise<void> {
   await look_from(one.station);
-  await go_to(Math.min(one.end_ns + kAfterRequest, next?.at_ns ?? Infinity, newest));
+  await go_to(Math.min(one.end_ns + kAfterRequest, one.next_at_ns ?? Infinity, state.past?.newest_ns ?? 0));
+}
+
+export async function ask_why_unanswered(one: Exchange): Promise<void> {
+  await go_to_verdict(one);
   await ask(`Why has ${in_short(one.request)} no answer?`, 'why');
 }
 

@@ -14,6 +14,8 @@ export interface Exchange {
   answer_end_ns?: number;
   pending?: boolean;
   overdue?: boolean;
+  /** When the next request came. */
+  next_at_ns?: number;
 }
 
 const kAwaited = 1e9;  // ns for which a request without an answer may still get one
@@ -45,9 +47,10 @@ function without_first_answer(all: Exchange[]): Exchange[] {
 
 /**
  * A frame that the PLC receives is a request, and the next one that it sends, before another request, is the answer. A PLC
- * that is a master sends requests of Modbus and receives their answers.
+ * that is a master sends requests of Modbus and receives their answers. What has run up to `known_ns` says whether there was an
+ * answer, wherever one stands in that past.
  */
-export function exchanges_of(spans: Spans | null, now_ns: number): Exchange[] {
+export function exchanges_of(spans: Spans | null, known_ns: number): Exchange[] {
   const all: Exchange[] = [];
   for (const track of spans?.tracks ?? []) {
     if (track.kind !== 'frames') continue;
@@ -68,11 +71,13 @@ export function exchanges_of(spans: Spans | null, now_ns: number): Exchange[] {
         open = undefined;
       }
     }
-    if (open && now_ns - open.end_ns < kAwaited) open.pending = true;
-    if (open?.pending && now_ns - open.end_ns > kOverdue) open.overdue = true;
+    if (open && known_ns - open.end_ns < kAwaited) open.pending = true;
+    if (open?.pending && known_ns - open.end_ns > kOverdue) open.overdue = true;
     all.push(...(spans!.from_ns > 0 ? without_first_answer(of_track) : of_track));
   }
-  return all.sort((a, b) => a.at_ns - b.at_ns);
+  all.sort((a, b) => a.at_ns - b.at_ns);
+  all.slice(1).forEach((next, i) => { all[i]!.next_at_ns = next.at_ns; });
+  return all;
 }
 
 /** Whether it may still be answered, and one may ask why it is not yet. */

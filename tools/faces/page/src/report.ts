@@ -1,5 +1,9 @@
 // What a report carries: runs of programs, with what came from outside, each of which is computed again here.
 import { changed, notice, show_pane, state, the_engine } from './state';
+import { go_to_verdict } from './causes';
+import { exchanges_of, is_unanswered } from './exchanges';
+import { when_begun } from './session';
+import { spans_between } from './timeline/view';
 import type { Openable, Report, ReportedRun } from './protocol';
 
 /** The report in the page; null if it has none, or a damaged one. */
@@ -41,6 +45,16 @@ function first_run(report: Report): number {
 
 const kShort = 600e9;  // ns: the end of a shorter run is computed before one has looked up
 
+const kMostFrames = 20000;
+
+/** Where a request of `send` had no answer, the report opens: what it says has waited for all of them. */
+async function open_at_unanswered(): Promise<void> {
+  const run = state.report?.runs[state.run ?? 0], end_ns = run?.recordings?.[state.recording ?? 0]?.end[2] ?? 0;
+  if (state.report?.verb !== 'send' || end_ns > kShort) return;
+  state.unanswered = exchanges_of(await spans_between(0, end_ns, kMostFrames), Infinity).filter(is_unanswered);
+  if (state.unanswered[0]) await go_to_verdict(state.unanswered[0]);
+}
+
 /** Opens a run, at what it found or else at its end; the end of a long one is computed when one goes there. */
 export async function open_run(number: number, recording?: number, at_ns?: number): Promise<void> {
   const report = state.report, run = report?.runs[number];
@@ -53,6 +67,7 @@ export async function open_run(number: number, recording?: number, at_ns?: numbe
   const recorded = run.recordings![which]!;
   const end_ns = recorded.end[2];
   state.recording = which;
+  state.unanswered = [];
   state.sources = run.system === undefined ? report.programs[run.program!]! : [];
   state.picture = recorded.picture ?? null;
   state.first_moment = at_ns ?? (finding?.recording === which ? finding.at_ns! : end_ns <= kShort ? end_ns : 0);
@@ -68,6 +83,7 @@ export async function open_report(): Promise<boolean> {
   changed();
   if (report.conversation) return true;
   show_pane('report');
+  when_begun(open_at_unanswered);
   await open_run(first_run(report));
   return true;
 }

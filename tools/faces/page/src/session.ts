@@ -204,11 +204,18 @@ function show_picture(): void {
   state.window = { from_ns: state.picture.from_ns, to_ns: state.picture.to_ns };
 }
 
+let at_first_moment = async (): Promise<void> => {};
+/** What is done once the page stands where it begins, unless its address names a moment. */
+export function when_begun(does: () => Promise<void>): void {
+  at_first_moment = does;
+}
+
 /** The moment that the address of the page names, once there is a session. */
 async function follow_link(): Promise<void> {
   const named = moment_of_link(location.hash), asked = named ?? state.first_moment ?? undefined;
   state.first_moment = null;
   if (asked !== undefined && asked !== state.past?.now_ns) await (named === undefined ? go_to : go_to_named)(asked);
+  if (named === undefined) await at_first_moment();
 }
 
 /** The inputs and outputs of the program, its symbols and the first bytes of the CPU, as switches and lamps. */

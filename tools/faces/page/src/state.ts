@@ -1,6 +1,7 @@
 // All that the page shows, as plain data. Who changes it says changed(), and the page is rendered with the next frame.
 import type { Connection, Engine } from './engine';
 import type { Cause, Done, Execution, Hello, LadderNetwork, Line, Outline, Past, Report, Source, Span, Spans, Value } from './protocol';
+import type { Exchange } from './exchanges';
 import type { Measurement } from './timeline/measure';
 
 export type PaneName = 'program' | 'chart' | 'timeline' | 'causes' | 'line' | 'report';
@@ -107,6 +108,8 @@ export interface State {
   run: number | null;
   recording: number | null;
   first_moment: number | null;
+  /** Requests of it that have no answer. */
+  unanswered: Exchange[];
   picture: Spans | null;
 
   /** Of the playground: the files, the PLC type that was chosen, and what check said. */
@@ -165,6 +168,7 @@ export const state: State = {
   run: null,
   recording: null,
   first_moment: null,
+  unanswered: [],
   picture: null,
   sources: [],
   cpu: '',

@@ -20,10 +20,10 @@ async function send(text: string): Promise<void> {
 
 const kExamples = ['01 03 00 0a 00 02 crc', 'read 40011:2', 'write 40011=1234', "'HELLO\\r'"];
 
-function row(one: Exchange, i: number, next: Exchange | undefined): Part {
+function row(one: Exchange, i: number): Part {
   const unanswered = is_unanswered(one) || is_overdue(one);
   const result = one.error ?? one.answer ?? (one.pending ? 'under way …' : 'no answer');
-  const why = unanswered ? { title: 'What kept the program from an answer', ask: () => void ask_why_unanswered(one, next) }
+  const why = unanswered ? { title: 'What kept the program from an answer', ask: () => void ask_why_unanswered(one) }
     : one.answer_end_ns === undefined || one.sent ? null : { title: 'What the answer waited for', ask: () => void ask_why_latency(one.request, one.answer_end_ns!, one.station) };
   return h('tr', { key: i, class: one.error !== undefined || is_unanswered(one) ? 'trouble' : '', onclick: () => void go_to(one.at_ns) },
     h('td', {}, h('button', { class: 'link', title: 'Go to this request' }, moment_text(one.at_ns))),
@@ -56,7 +56,7 @@ function summary(all: Exchange[]): string {
 
 export function line_pane(): Part {
   see_exchanges();
-  const all = exchanges_of(state.exchanges, state.past?.now_ns ?? 0);
+  const all = exchanges_of(state.exchanges, state.exchanges?.to_ns ?? 0);
   const shown = filter === '' ? all : all.filter((one) => `${one.request} ${one.answer ?? 'no answer'} ${one.error ?? ''}`.toLowerCase().includes(filter.toLowerCase()));
   const rows = shown.slice(-rows_shown(kShown)).reverse(), older = shown.length - rows.length;
   return h('div', { class: 'line-pane' },
@@ -72,6 +72,6 @@ export function line_pane(): Part {
       histogram(latencies_of(all)), h('span', { class: 'hint' }, summary(all))),
     h('table', { class: 'exchanges' },
       h('thead', {}, h('tr', {}, ['Request at', 'Request', 'Answer', 'Latency'].map((name) => h('th', {}, name)))),
-      h('tbody', {}, rows.map((one, i) => row(one, i, all[all.indexOf(one) + 1])))),
+      h('tbody', {}, rows.map(row))),
     older > 0 ? h('p', { class: 'hint' }, `and ${older} before these`) : null);
 }

@@ -1,11 +1,12 @@
 // The report: what ran, with its verdicts, as a tree; a run is opened at what it found.
 import { h, kept, type Child, type Part } from '../dom';
-import { ask_why } from '../causes';
+import { ask_why, ask_why_unanswered, in_short } from '../causes';
 import { can_be_opened, choose_run } from '../report';
 import { go_to } from '../session';
 import { kRowsOnPaper, state } from '../state';
 import { duration_text, moment_text } from '../words';
 import { linked } from './causes';
+import type { Exchange } from '../exchanges';
 import type { Recorded, Report, ReportedFinding, ReportedRun } from '../protocol';
 
 const kMarks: Record<string, string> = { passed: '✓', failed: '✗', skipped: '–', 'expected failure': '≈' };
@@ -127,6 +128,19 @@ function answers_text(recorded: Recorded | undefined): Child[] {
   return [`${answers.count}, the longest after ${duration_text(longest.answer_ns - longest.end_ns)}, to the request at `, moment_link(longest.at_ns)];
 }
 
+const kUnanswered = 20;  // that are listed
+
+function unanswered_item(one: Exchange, i: number): Part {
+  return h('div', { class: 'unanswered', key: i }, moment_link(one.at_ns), h('span', { class: 'frame' }, ` ${in_short(one.request)} `),
+    h('button', { class: 'why', title: 'What kept the program from an answer', onclick: () => void ask_why_unanswered(one) }, 'Why?'));
+}
+
+/** Which requests have no answer. */
+function unanswered_list(): Child[] {
+  const all = state.unanswered, more = all.length - kUnanswered;
+  return [...all.slice(0, kUnanswered).map(unanswered_item), more > 0 ? `and ${more} more` : ''].filter((one) => one !== '');
+}
+
 /** Of a run that is no scenario. */
 function summary(report: Report, run: ReportedRun): Part {
   const end_ns = run.recordings?.[0]?.end[2] ?? 0, actions = run.recordings?.[0]?.count ?? 0;
@@ -137,6 +151,7 @@ function summary(report: Report, run: ReportedRun): Part {
     ['Simulated time', [duration_text(end_ns)]],
     ['From outside', [actions === 0 ? 'nothing' : `${actions} ${actions === 1 ? 'action' : 'actions'}`]],
     ['Answers', answers_text(run.recordings?.[0])],
+    ['No answer to', unanswered_list()],
   ];
   return h('div', { class: 'report-pane' },
     h('table', { class: 'summary' }, h('tbody', {}, rows.filter(([, said]) => said.length > 0).map(([name, said]) => h('tr', {}, h('th', { scope: 'row' }, name), h('td', {}, said))))),
