@@ -97,7 +97,14 @@ test('an hour of polling opens with its picture, and any moment of it is compute
   await page.press('#moment', 'Enter');
   await stands_at(page, 1800e3, 2);
   await page.click('#tab-line');
-  await page.waitForSelector('.exchanges tbody tr');
+  await page.waitForSelector('.part:has-text("Only 0:29:00 to 0:31:00 of ")');
+  assert.match(await page.textContent('.line-pane'), /1(19|20|21) requests, 0 without an answer/);
+  await page.click('#exchanges-before');
+  await page.waitForSelector('.part:has-text("Only 0:27:00 to 0:29:00")');
+  await page.click('#exchanges-after');
+  await page.waitForSelector('.part:has-text("Only 0:29:00 to 0:31:00")');
+  await page.fill('.line-pane input[type=search]', 'nothing has this');
+  await page.waitForFunction(() => /^0 of 1\d\d pass the filter/.test(document.querySelector('.chart-tools .hint').textContent));
   await page.end();
 });
 

@@ -99,6 +99,11 @@ export interface State {
   trail: TrailStep[];
   printed: string[];
   exchanges: Spans | null;
+  /** The middle of the part of the past whose exchanges are listed; null: the present. */
+  exchanges_around_ns: number | null;
+  /** There is more of the past before that part, and after it. */
+  exchanges_before: boolean;
+  exchanges_after: boolean;
   /** What was done from outside up to now. */
   done: Done | null;
   send_text: string;
@@ -162,6 +167,9 @@ export const state: State = {
   trail: [],
   printed: [],
   exchanges: null,
+  exchanges_around_ns: null,
+  exchanges_before: false,
+  exchanges_after: false,
   done: null,
   send_text: '',
   report: null,

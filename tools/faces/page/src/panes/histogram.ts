@@ -12,5 +12,6 @@ export function histogram(numbers: number[], text = duration_text): Part | null 
   for (const one of numbers) counts[Math.min(kBars - 1, Math.floor((one - least) / width))]! += 1;
   const highest = Math.max(...counts), bar = kWidth / kBars;
   const path = counts.map((count, i) => `M${i * bar},${kHeight}v${-count / highest * kHeight}h${bar - 1}V${kHeight}z`).join('');
-  return h('svg', { class: 'histogram', viewBox: `0 0 ${kWidth} ${kHeight}`, role: 'img', 'aria-label': `Spread from ${text(least)} to ${text(most)}` }, h('path', { d: path }));
+  return h('span', { class: 'spread' }, h('svg', { class: 'histogram', viewBox: `0 0 ${kWidth} ${kHeight}`, preserveAspectRatio: 'none', role: 'img', 'aria-label': `Spread from ${text(least)} to ${text(most)}` }, h('path', { d: path })),
+    h('span', { class: 'ends', 'aria-hidden': 'true' }, h('span', {}, text(least)), h('span', {}, text(most))));
 }

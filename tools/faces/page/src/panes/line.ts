@@ -3,10 +3,10 @@ import { h, type Part } from '../dom';
 import { command, go_to } from '../session';
 import { changed, rows_shown, state } from '../state';
 import { ask_why_latency, ask_why_unanswered } from '../causes';
-import { see_exchanges } from '../timeline/view';
+import { list_exchanges, see_exchanges } from '../timeline/view';
 import { exchanges_of, is_overdue, is_unanswered, type Exchange } from '../exchanges';
 import { action, title_with_key } from '../actions';
-import { duration_text, moment_text } from '../words';
+import { clock_text, duration_text, moment_text } from '../words';
 import { histogram } from './histogram';
 
 let filter = '';
@@ -38,20 +38,23 @@ function latencies_of(all: Exchange[]): number[] {
   return all.flatMap((one) => (one.latency_ns === undefined ? [] : [one.latency_ns]));
 }
 
-/** Which part of the past is listed, unless it is all of it. */
-function part_text(): string {
-  const listed = state.exchanges, past = state.past;
-  if (!listed || !past || (listed.from_ns <= past.oldest_ns && listed.to_ns >= past.newest_ns)) return '';
-  return ` from ${duration_text(listed.from_ns)} to ${duration_text(listed.to_ns)}`;
+/** Which part of the past is listed, unless it is all of it, and the way to the others. */
+function part(): Part | null {
+  const listed = state.exchanges;
+  if (!listed || !(state.exchanges_before || state.exchanges_after)) return null;
+  return h('p', { class: 'part' },
+    h('button', { id: 'exchanges-before', disabled: !state.exchanges_before, onclick: () => list_exchanges(-1) }, 'Earlier'),
+    h('button', { id: 'exchanges-after', disabled: !state.exchanges_after, onclick: () => list_exchanges(1) }, 'Later'),
+    h('span', { class: 'hint' }, `Only ${clock_text(listed.from_ns, 0)} to ${clock_text(listed.to_ns, 0)} of ${clock_text(state.past?.newest_ns ?? 0, 0)} is listed, filtered and measured here`));
 }
 
 function summary(all: Exchange[]): string {
   const latencies = latencies_of(all);
-  if (all.length === 0) return '';
+  if (all.length === 0) return state.exchanges ? 'no request' : '';
   const unanswered = all.filter(is_unanswered).length;
   const ends = [...new Set([Math.min(...latencies), Math.max(...latencies)])].map(duration_text).join(' … ');
   const spread = latencies.length === 0 ? '' : `, latency ${ends}`;
-  return `${all.length} ${all.length === 1 ? 'request' : 'requests'}${part_text()}, ${unanswered} without an answer${spread}`;
+  return `${all.length} ${all.length === 1 ? 'request' : 'requests'}, ${unanswered} without an answer${spread}`;
 }
 
 export function line_pane(): Part {
@@ -69,7 +72,8 @@ export function line_pane(): Part {
     h('div', { class: 'chart-tools' },
       h('input', { type: 'search', placeholder: 'Filter', 'aria-label': 'Filter', oninput: (event: Event) => { filter = (event.target as HTMLInputElement).value; changed(); } }),
       h('button', { title: title_with_key(action('longest')), onclick: action('longest').does }, 'Longest answer'),
-      histogram(latencies_of(all)), h('span', { class: 'hint' }, summary(all))),
+      histogram(latencies_of(shown)), h('span', { class: 'hint' }, filter === '' ? '' : `${shown.length} of ${all.length} pass the filter: `, summary(shown))),
+    part(),
     h('table', { class: 'exchanges' },
       h('thead', {}, h('tr', {}, ['Request at', 'Request', 'Answer', 'Latency'].map((name) => h('th', {}, name)))),
       h('tbody', {}, rows.map(row))),

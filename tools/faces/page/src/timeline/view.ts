@@ -56,22 +56,36 @@ function is_in_picture(from_ns: number, to_ns: number): boolean {
   return state.picture !== null && state.watched.length === 0 && from_ns <= state.picture.from_ns && to_ns === state.picture.to_ns;
 }
 
-const kExchanges = 60e9, kExchangesAfter = 5e9;  // ns before and after the present whose exchanges are listed
+const kExchanges = 60e9;  // ns before and after a moment whose exchanges are listed
 
 const exchanges = new Seen(async () => {
   if (state.running) await new Promise((done) => setTimeout(done, 3 * kRest));
   const past = state.past;
   if (!past || past.newest_ns === 0) return;
-  const spans = await spans_between(Math.max(past.oldest_ns, past.now_ns - kExchanges), Math.min(past.newest_ns, past.now_ns + kExchangesAfter), 20000);
-  if (spans) state.exchanges = spans;
+  const middle = state.exchanges_around_ns ?? past.now_ns;
+  const from = Math.max(past.oldest_ns, middle - kExchanges), to = Math.min(past.newest_ns, middle + kExchanges);
+  const spans = await spans_between(from, to, 20000);
+  if (!spans) return;
+  state.exchanges = spans;
+  state.exchanges_before = from > past.oldest_ns;
+  state.exchanges_after = to < past.newest_ns;
 });
 let exchanges_of_ns = -1;
 
-/** The line pane shows the exchanges before this moment; it asks again when that is another one. */
+/** The line pane shows the exchanges around this moment; it asks again when that is another one. */
 export function see_exchanges(): void {
   const now = state.past?.now_ns ?? 0;
   if (now === exchanges_of_ns) return;
   exchanges_of_ns = now;
+  state.exchanges_around_ns = null;
+  exchanges.refresh();
+}
+
+/** Lists the part of the past before or after the one that is listed. */
+export function list_exchanges(direction: 1 | -1): void {
+  const { oldest_ns, newest_ns, now_ns } = state.past!;
+  const middle = (state.exchanges_around_ns ?? now_ns) + direction * 2 * kExchanges;
+  state.exchanges_around_ns = Math.max(oldest_ns + kExchanges, Math.min(newest_ns - kExchanges, middle));
   exchanges.refresh();
 }
 
