@@ -6,7 +6,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { test } from 'node:test';
 
-const kParts = ['state', 'words', 'formats', 'exchanges', 'files', 'status_charts', 'timeline/draw', 'timeline/scale'];
+const kParts = ['state', 'words', 'formats', 'exchanges', 'files', 'status_charts', 'timeline/draw', 'timeline/scale', 'timeline/measure'];
 const source = kParts.map((one) => `export * from './${one}';`).join('\n');
 const bundle = execFileSync('esbuild', ['--bundle', '--format=esm', '--platform=neutral'],
   { input: source, cwd: path.join(process.env.SOURCE, 'tools/faces/page/src'), encoding: 'utf8' });
@@ -161,6 +161,16 @@ test('the scale finds the first element that is in view', () => {
   assert.equal(parts.x_of(scale, 600), 250);
   assert.equal(parts.ns_at(scale, 250), 600);
   assert.equal(parts.step_of(scale, 100), 200);
+});
+
+test('what reaches over an end of a measured part, or still goes on, counts for no length', () => {
+  parts.state.past = { oldest_ns: 0, newest_ns: 1000, now_ns: 0 };
+  const scan = (at_ns, end_ns) => ({ text: 'scan', at_ns, end_ns });
+  const of = (from, to, ...spans) => parts.measured({ kind: 'scans', name: 'scans', exact: true, spans }, from, to)[0];
+  const [one, open] = [of(100, 400, scan(99, 120), scan(120, 220), scan(220, 400), scan(400, 401)), of(0, 1000, scan(0, 10), scan(900, 1000))];
+  assert.deepEqual([one.count, one.cut, one.average, one.least.at_ns, one.most.at_ns], [2, 1, 140, 120, 220]);
+  assert.deepEqual([open.count, open.cut, open.most.end_ns], [1, 1, 10]);
+  parts.state.past = null;
 });
 
 test('the bits of a character are those of the line', () => {
