@@ -35,7 +35,18 @@ test('an input that is switched in one future only parts them', async () => {
   await page.waitForFunction(() => /both futures part at 1\d\d\./.test(document.querySelector('.timeline .readout').textContent));
   await page.waitForSelector('[aria-label="Output Q0.0 on"]');
   await picture(page, 'futures');
+  await page.fill('#find', 'Level_High');
+  await page.press('#find', 'Enter');
+  await page.click('.operand:has-text("Level_High")');
+  await page.click('[role=menuitem]:has-text("Show on the timeline")');
+  await page.waitForFunction(() => document.querySelectorAll('.track-name:has(button) + .track-name.before').length === 2);
+  assert.equal(await page.textContent('.track-name:has-text("I0.0") + .track-name'), 'first future', 'what was in the chart then has its first future too');
+  await page.mouse.move(5, 5);
   const parting = await page.textContent('.timeline .readout');
+  const box = await page.locator('.track-name:has-text("I0.0") + .track-name').boundingBox(), canvas = await page.locator('#timeline').boundingBox();
+  await page.mouse.move(canvas.x + canvas.width * 0.6, box.y + box.height / 2);
+  await page.waitForFunction(() => /^first future · I0\.0/.test(document.querySelector('.timeline .readout').textContent));
+  await page.mouse.move(5, 5);
   await page.evaluate(() => document.activeElement?.blur());
   for (let i = 0; i < 6; ++i) await page.keyboard.press('+');
   await page.waitForTimeout(300);

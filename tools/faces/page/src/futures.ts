@@ -15,6 +15,14 @@ function end_of_first(now_ns: number, newest_ns: number): number {
   return Math.max(newest_ns, now_ns + kLeastAhead, state.window?.to_ns ?? 0);
 }
 
+const kWatchable = /^(?:SM|[IQVMSL])(?:\d+\.[0-7]|[BWD]\d+)$/;
+
+/** What may be put on the timeline later: its values of this future cannot be asked for once there is another one. */
+function all_known(): string[] {
+  const shown = [...state.values.values()].map((one) => one.address).filter((one) => kWatchable.test(one));
+  return [...new Set([...state.watched, ...shown])];
+}
+
 /** Keeps what comes after the present moment, which is run if it has not been yet; ends the comparison if there is one. */
 export async function compare_futures(): Promise<void> {
   if (state.first_future) {
@@ -29,7 +37,7 @@ export async function compare_futures(): Promise<void> {
     if (past.in_the_past) await move('at end');
     await move(`continue ${moment_word(until_ns - past.newest_ns)}`);
   }
-  const spans = await spans_between(at_ns, until_ns, kElements, state.watched);
+  const spans = await spans_between(at_ns, until_ns, kElements, all_known());
   await go_to(at_ns);
   if (!spans) return;
   state.first_future = { at_ns, until_ns, spans };
@@ -59,6 +67,7 @@ function value_at(track: SpanTrack, ns: number): number | undefined {
 /** Whether an element of a track, within a part of the time, is one that the other track does not have. */
 function differs_from(other: SpanTrack | undefined, track: SpanTrack, from_ns: number, to_ns: number): (one: Span) => boolean {
   const known = new Set((other?.spans ?? []).map(key_of));
+  if (track.kind === 'value' && !other) return () => false;  // it is not known of that future
   return (one) => (track.kind === 'value' && other
     ? one.end_ns > from_ns && one.at_ns < to_ns && value_at(other, Math.max(one.at_ns, from_ns)) !== one.value
     : one.at_ns > from_ns && one.end_ns < to_ns && !known.has(key_of(one)));
@@ -79,9 +88,10 @@ function both(spans: Spans, first: NonNullable<typeof state.first_future>): Span
   const lower = (track: SpanTrack, upper: SpanTrack | undefined): SpanTrack => ({ ...track, before: true, spans: marked(track, upper, from, to) });
   const tracks = spans.tracks.flatMap((track) => {
     const kept = first.spans.tracks.find(same(track));
-    return [{ ...track, spans: marked(track, kept, from, to) }, ...(kept ? [lower(kept, track)] : [])];
+    const unknown = track.kind === 'value' ? [{ ...track, before: true, unknown: true, spans: [] }] : [];
+    return [{ ...track, spans: marked(track, kept, from, to) }, ...(kept ? [lower(kept, track)] : unknown)];
   });
-  const gone = first.spans.tracks.filter((one) => !names.has(`${one.station ?? ''} ${one.name}`)).map((one) => lower(one, undefined));
+  const gone = first.spans.tracks.filter((one) => one.kind !== 'value' && !names.has(`${one.station ?? ''} ${one.name}`)).map((one) => lower(one, undefined));
   return { ...spans, tracks: [...tracks, ...gone] };
 }
 
@@ -102,7 +112,6 @@ export function shown_spans(): Spans | null {
 function parting_of(first: NonNullable<typeof state.first_future>, second: Spans): number | null {
   const to = Math.min(first.until_ns, second.to_ns), is_whole = second.to_ns >= first.until_ns;
   const begin = (one: SpanTrack, other: SpanTrack | undefined): number => {
-    if (one.kind === 'value' && !other) return Infinity;  // it was not watched then
     if (!is_whole && other && !(one.exact && other.exact)) return Infinity;  // several are put together in another way
     const found = one.spans.find(differs_from(other, one, first.at_ns, to));
     return found ? Math.max(found.at_ns, first.at_ns) : Infinity;

@@ -229,6 +229,8 @@ export interface SerialFormat {
 export interface SpanTrack {
   /** Of the page itself: it is of the first of two futures. */
   before?: boolean;
+  /** And what it was there is not known. */
+  unknown?: boolean;
   kind: TrackKind;
   name: string;
   station?: string;

@@ -127,8 +127,8 @@ function name_of(track: SpanTrack): string {
 /** On a phone only the first track of a PLC has its name. */
 function labels(): Part[] {
   const rows = rows_of(shown_spans(), 0);
-  return rows.map((row, i) => h('div', { class: `track-name${row.track.before ? ' before' : ''}`, key: i, style: { top: `${row.top}px`, height: `${row.height}px` }, title: row.track.before ? `${row.track.name}: the first future` : name_of(row.track) },
-    h('span', {}, row.track.before ? 'first future' : is_narrow() && row.track.station === rows[i - 1]?.track.station ? row.track.name : name_of(row.track)),
+  return rows.map((row, i) => h('div', { class: `track-name${row.track.before ? ' before' : ''}`, key: i, style: { top: `${row.top}px`, height: `${row.height}px` }, title: row.track.unknown ? `What ${row.track.name} was in the first future is not known: put it on the timeline before What if?` : row.track.before ? `${row.track.name}: the first future` : name_of(row.track) },
+    h('span', {}, row.track.unknown ? 'first future: not kept' : row.track.before ? 'first future' : is_narrow() && row.track.station === rows[i - 1]?.track.station ? row.track.name : name_of(row.track)),
     row.track.kind === 'value' && !row.track.before ? h('button', { class: 'plain', 'aria-label': `Remove ${row.track.name}`, onclick: () => timeline.unwatch(watched_as(row.track.name)) }, icon('close')) : null));
 }
 
@@ -165,7 +165,7 @@ export function timeline_pane(): Part {
       state.first_future ? tool('second', 'Run as far as the first future goes', () => void run_second(), icon('run')) : null,
       tool('a', 'Cursor A here ([)', () => timeline.set_cursor('a'), 'A'), tool('b', 'Cursor B here (])', () => timeline.set_cursor('b'), 'B'),
       tool('measure', 'Measure between the cursors, or what is in view: count, shortest, average, longest, histogram (Shift+M)', () => void measure(), 'Measure'),
-      h('span', { class: 'readout', role: 'status' }, state.computing ? 'computing …' : (state.first_future ? difference_text() : '') || measured() || told || `${duration_text(to_ns - from_ns)} in view`),
+      h('span', { class: 'readout', role: 'status' }, state.computing ? 'computing …' : told || (state.first_future ? difference_text() : '') || measured() || `${duration_text(to_ns - from_ns)} in view`),
       state.cursors.a_ns !== null ? h('button', { class: 'plain', 'aria-label': 'Remove cursors', onclick: timeline.clear_cursors }, icon('close')) : null,
       state.spans?.left_out?.length ? h('span', { class: 'small', title: 'Zoom in to 10 s or less' }, `zoom in for ${state.spans.left_out.join(', ')}`) : null),
     h('div', { class: 'tracks', onscroll: changed },

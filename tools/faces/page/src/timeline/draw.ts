@@ -339,7 +339,7 @@ export function span_at(view: View, x: number, y: number): { track: SpanTrack; s
 }
 
 export function span_text(track: SpanTrack, one: Span): string {
-  const parts = [track.station ? `${track.station}: ${track.name}` : track.name];
+  const parts = [...(track.before ? ['first future'] : []), track.station ? `${track.station}: ${track.name}` : track.name];
   if ((one.count ?? 1) > 1) {
     parts.push(`${one.count} in ${duration_text(one.end_ns - one.at_ns)}, busy ${duration_text(one.busy_ns ?? 0)}`);
     if (one.least !== undefined) parts.push(`${one.least} … ${one.most}`);
