@@ -71,6 +71,15 @@ test('a moment that is typed is gone to, and what is not a time is said', async 
   await page.close();
 });
 
+test('what an instruction did is said in the status bar until the next step', async () => {
+  const page = await open(chrome, plc.address);
+  await page.keyboard.press('.');
+  await page.waitForFunction(() => document.querySelector('.status-bar .printed').textContent !== '');
+  await page.keyboard.press('Home');
+  await page.waitForFunction(() => document.querySelector('.status-bar .printed').textContent === '');
+  await page.close();
+});
+
 test('a moment within an instruction is said to be one: the CPU stands at the next', async () => {
   const page = await open(chrome, plc.address);
   await page.keyboard.press('g');

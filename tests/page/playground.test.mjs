@@ -92,6 +92,31 @@ test('mistakes are beside the program, in whole sentences, how many there are fi
   await page.close();
 });
 
+test('what was missing is not said of a program with mistakes', async () => {
+  const page = await open();
+  await page.click('#check-and-run');
+  await page.waitForSelector('.notice:has-text("There is no program yet")');
+  await page.fill('.opener textarea', 'LD I0.0\nMOVB VW100, VB2\nMEND\n');
+  await page.click('#check-and-run');
+  await page.waitForSelector('.diagnostics .error');
+  assert.equal(await page.locator('.notice').count(), 0);
+  await page.close();
+});
+
+test('where a program has no interrupt routine, it says so and runs nothing', async () => {
+  const page = await open();
+  await page.click('text=Example');
+  await page.click('#check-and-run');
+  await page.waitForSelector('.row');
+  await page.waitForSelector('.connection.connected');
+  await page.evaluate(() => document.activeElement?.blur());
+  const before = await page.inputValue('#moment');
+  await page.keyboard.press('i');
+  await page.waitForSelector('.notice:has-text("The program has no interrupt routine")');
+  assert.equal(await page.inputValue('#moment'), before);
+  await page.close();
+});
+
 test('a program is typed, run as fast as it goes, and paused', async () => {
   const page = await open();
   await page.click('text=Example');

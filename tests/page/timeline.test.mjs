@@ -217,3 +217,40 @@ test('a damaged character is found from far away', async () => {
   await picture(page, 'timeline_damaged');
   assert.deepEqual(page.troubles, []);
 });
+
+test('what is refused is said in few words, until the next is not; what is sent waits for Run', async () => {
+  await page.keyboard.press('Escape');
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press('End');
+  await page.waitForSelector('.tag.now');
+  await page.click('#tab-line');
+  await run_for(1500);
+  await send('zz');
+  await page.waitForSelector('.notice.error');
+  assert.equal(await page.textContent('.notice.error span'), "column 1: 'z' is not a hex digit");
+  await send('read 40011:1');
+  await page.waitForSelector('.exchanges tr.waits:has-text("read 40011:1")');
+  assert.match(await page.textContent('.exchanges tr.waits'), /waits for Run/);
+  assert.equal(await page.locator('.notice').count(), 0);
+  await send('read 40011:2');
+  await page.waitForSelector('.notice.error:has-text("The last frame is still under way or waiting for its answer: Run on first")');
+  await run_for(150);
+  await page.waitForSelector('.exchanges tr.waits', { state: 'detached' });
+});
+
+test('an interrupt is gone to; where there is none the page says so and stays', async () => {
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press('Shift+I');
+  await page.waitForSelector('.tag.past');
+  assert.ok(await moment(page) > 100);
+  await page.keyboard.press('Home');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) === 0);
+  await page.keyboard.press('s');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 0);
+  const before = await page.inputValue('#moment');
+  await page.keyboard.press('Shift+I');
+  await page.waitForSelector('.notice:has-text("No interrupt before this moment")');
+  assert.equal(await page.inputValue('#moment'), before);
+  await page.keyboard.press('Escape');
+  await page.waitForSelector('.notice', { state: 'detached' });
+});

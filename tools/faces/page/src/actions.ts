@@ -10,6 +10,7 @@ import { can_open } from './playground';
 import { remember, remembered } from './memory';
 import { run_in_link } from './report';
 import { link_of, moment_from } from './words';
+import type { Stopped } from './protocol';
 import * as search from './timeline/search';
 import { measure } from './timeline/measure';
 import * as timeline from './timeline/view';
@@ -35,6 +36,20 @@ function step(words: string): () => void {
     if (state.own_run) pause();
     void move(words);
   };
+}
+
+/** To the next interrupt, or to the one before; if there is none, it stays where it was. */
+async function step_to_interrupt(direction: 1 | -1): Promise<void> {
+  if (state.own_run) pause();
+  if (!state.outline?.routines.some((one) => /^INT/.test(one.name))) {
+    notice('The program has no interrupt routine');
+    return;
+  }
+  const reply = await move<Stopped>(direction > 0 ? 'interrupt' : 'rinterrupt');
+  const found = reply.error !== undefined || (direction > 0 ? reply.json?.stopped !== 'limit' : state.past?.now_ns !== state.past?.oldest_ns);
+  if (found) return;
+  await move('back');
+  notice(direction > 0 ? 'No interrupt within 10 s after this moment' : 'No interrupt before this moment');
 }
 
 function go_to_mark(direction: 1 | -1): void {
@@ -109,8 +124,8 @@ export const kActions: Action[] = [
   { id: 'rnetwork', group: 'Steps', title: 'Back by a network', keys: ['Shift+N'], does: step('rnetwork') },
   { id: 'scan', group: 'Steps', title: 'Scan', keys: ['s'], does: step('scan') },
   { id: 'rscan', group: 'Steps', title: 'Back by a scan', keys: ['Shift+S'], does: step('rscan') },
-  { id: 'interrupt', group: 'Steps', title: 'Interrupt', keys: ['i'], does: step('interrupt') },
-  { id: 'rinterrupt', group: 'Steps', title: 'Back to the last interrupt', keys: ['Shift+I'], does: step('rinterrupt') },
+  { id: 'interrupt', group: 'Steps', title: 'Interrupt', keys: ['i'], does: () => void step_to_interrupt(1) },
+  { id: 'rinterrupt', group: 'Steps', title: 'Back to the last interrupt', keys: ['Shift+I'], does: () => void step_to_interrupt(-1) },
 
   { id: 'start', group: 'Go to', title: 'Start of the past', keys: ['Home'], does: () => void move('at start') },
   { id: 'end', group: 'Go to', title: 'Newest moment', keys: ['End'], does: () => void move('at end') },
@@ -197,6 +212,7 @@ function is_taken(event: KeyboardEvent): boolean {
 export function on_key(event: KeyboardEvent): void {
   if (event.ctrlKey || event.altKey || event.metaKey) return;
   if (event.key === 'Escape') {
+    if (state.dialog === null && state.menu === null) state.notice = null;
     state.dialog = null;
     close_menu();
     if (is_typing(event.target)) (event.target as HTMLElement).blur();

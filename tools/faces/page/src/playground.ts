@@ -24,6 +24,7 @@ export async function open_program(): Promise<void> {
     notice('There is no program yet: drop one on the page, or type it');
     return;
   }
+  notice('');
   const sources = state.sources.map(({ name, text, hex }) => (hex === undefined ? { name, text } : { name, hex }));
   const reply = await engine.open({ sources, options: state.cpu === '' ? {} : { cpu: state.cpu } });
   if (reply.error !== undefined || !reply.json) {

@@ -2,7 +2,7 @@
 import type { Stopped } from './protocol';
 import { changed, state, the_engine } from './state';
 import { any_pulses, switch_due, time_to_edge_ns } from './pulses';
-import { command, print, say_why_stopped, take_over } from './session';
+import { begin_anew, command, print, say_why_stopped, take_over } from './session';
 
 const kPiece = 50;        // ms of the reader's time that a piece takes
 const kWithoutEnd = '24h';
@@ -58,7 +58,7 @@ export async function run(): Promise<void> {
   take_over();
   state.own_run = true;
   state.running = true;
-  state.notice = null;
+  begin_anew();
   changed();
   if (state.hello?.live || (state.pace === 0 && the_engine().can_be_stopped && !any_pulses())) await run_without_end();
   else await run_paced();

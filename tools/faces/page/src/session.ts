@@ -33,10 +33,13 @@ export class Seen {
   }
 }
 
-/** Carries out a command, and says what is wrong with it. */
+const kind_of = (line: string): string => line.split(' ', 1)[0]!;
+
+/** Carries out a command, and says what is wrong with it, until one of the same kind is carried out. */
 export async function command<Json = unknown>(line: string): Promise<Reply<Json>> {
-  const reply = await the_engine().command<Json>(line);
-  if (reply.error !== undefined) notice(reply.error, 'error');
+  const reply = await the_engine().command<Json>(line), kind = kind_of(line);
+  if (reply.error !== undefined) notice(reply.error, 'error', kind);
+  else if (state.notice?.of === kind) notice('');
   return reply;
 }
 
@@ -314,11 +317,17 @@ export function take_over(): () => boolean {
   return () => mine === tasks;
 }
 
+/** What was said of the moment before is not true of the next one. */
+export function begin_anew(): void {
+  state.notice = null;
+  state.printed = [];
+}
+
 /** Carries out something that moves the session; what it says is shown where it stops. */
 export async function move<Json = unknown>(line: string): Promise<Reply<Json>> {
   take_over();
   state.running = true;
-  state.notice = null;
+  begin_anew();
   changed();
   const reply = await command<Json>(line);
   say_why_stopped(reply as Reply<any>);

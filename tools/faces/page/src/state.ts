@@ -50,7 +50,8 @@ export interface State {
   own_run: boolean;
   /** Simulated seconds a second; 0: as fast as it goes. */
   pace: number;
-  notice: { text: string; kind: 'info' | 'error' } | null;
+  /** What is said over the status bar; of a command that was refused with the kind of command. */
+  notice: { text: string; kind: 'info' | 'error'; of: string } | null;
   dialog: 'help' | 'about' | 'measurement' | null;
   menu: Menu | null;
   theme: Theme;
@@ -225,7 +226,7 @@ export function rows_shown(on_screen: number): number {
   return state.printing ? kRowsOnPaper : on_screen;
 }
 
-export function notice(text: string, kind: 'info' | 'error' = 'info'): void {
-  state.notice = text === '' ? null : { text, kind };
+export function notice(text: string, kind: 'info' | 'error' = 'info', of = ''): void {
+  state.notice = text === '' ? null : { text, kind, of };
   changed();
 }

@@ -18,7 +18,7 @@ export function moment_text(ns: number, decimals_of_ms = 6): string {
 /** What the session says, with times as the page writes them: its moments are in ms, however long, and its microseconds in us. */
 export function with_times(text: string): string {
   return text.replace(/\b(\d+\.\d{3}(?:\d{3})?) ms\b/g, (all, ms) => (Number(ms) * kMs < kInSeconds ? all : moment_text(Number(ms) * kMs)))
-    .replace(/\b(\d+(?:\.\d+)?) us\b/g, '$1 µs');
+    .replace(/\b(\d+(?:\.\d+)?) us\b/g, '$1 µs').replace(", to which 'back' returns", '').replace(/^answer +none within/, 'no answer within');
 }
 
 /** A moment as a command takes it, without rounding. */

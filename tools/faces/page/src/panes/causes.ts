@@ -34,7 +34,7 @@ const kOpen = 4;  // levels of the tree that are seen at once
 function since(one: Obstacle): Child[] {
   if (one.since_ns === 0) return [' since power-up'];
   const ns = one.since_ns ?? one.since_before_ns;
-  return ns === undefined ? [] : [` since ${one.since_ns === undefined ? 'before ' : ''}`, ...linked(`${(ns / 1e6).toFixed(6)} ms`)];
+  return ns === undefined ? [] : [' since ', ...linked(`${(ns / 1e6).toFixed(6)} ms`), one.since_ns === undefined ? ' or longer' : ''];
 }
 
 /** What is in the way, with what in turn is in its way below; an input can be switched there. */

@@ -1,7 +1,7 @@
 // The line: a request to send, and what was asked and answered.
 import { h, type Part } from '../dom';
 import { command, go_to } from '../session';
-import { changed, rows_shown, state } from '../state';
+import { changed, notice, rows_shown, state } from '../state';
 import { ask_why_latency, ask_why_unanswered } from '../causes';
 import { list_exchanges, see_exchanges } from '../timeline/view';
 import { exchanges_of, is_overdue, is_unanswered, type Exchange } from '../exchanges';
@@ -11,11 +11,24 @@ import { histogram } from './histogram';
 
 let filter = '';
 
+const kStillUnderWay = 'send: the last frame is still under way';
+
 async function send(text: string): Promise<void> {
   const line = text.trim();
   if (line === '') return;
-  const reply = await command(`send ${line}`);
-  if (reply.error === undefined) changed();
+  const reply = await command(`send ${line}`), told = `send ${line}: `, at_ns = state.past?.now_ns ?? 0;
+  if (reply.error?.startsWith(told)) notice(reply.error.slice(told.length), 'error', 'send');
+  if (reply.error?.startsWith(kStillUnderWay)) notice('The last frame is still under way or waiting for its answer: Run on first', 'error', 'send');
+  if (reply.error === undefined) waiting = { at_ns, frame: line };
+  changed();
+}
+
+/** What was sent while the program stood at that moment: it is on the line as soon as it runs. */
+let waiting: { at_ns: number; frame: string } | null = null;
+
+function waiting_row(): Part | null {
+  if (!waiting || state.running || waiting.at_ns !== state.past?.now_ns) return null;
+  return h('tr', { key: 'waits', class: 'waits' }, h('td', {}, ''), h('td', { class: 'frame' }, waiting.frame), h('td', { class: 'frame' }, 'waits for Run'), h('td', {}, ''));
 }
 
 const kExamples = ['01 03 00 0a 00 02 crc', 'read 40011:2', 'write 40011=1234', "'HELLO\\r'"];
@@ -76,6 +89,6 @@ export function line_pane(): Part {
     part(),
     h('table', { class: 'exchanges' },
       h('thead', {}, h('tr', {}, ['Request at', 'Request', 'Answer', 'Latency'].map((name) => h('th', {}, name)))),
-      h('tbody', {}, rows.map(row))),
+      h('tbody', {}, waiting_row(), rows.map(row))),
     older > 0 ? h('p', { class: 'hint' }, `and ${older} before these`) : null);
 }

@@ -67,6 +67,7 @@ async function* exchanges_after(from: number): AsyncGenerator<Exchange[]> {
 }
 
 export async function find_unanswered(): Promise<void> {
+  notice('Looking for a request without an answer …');
   const is_wanted = take_over();
   for await (const part of exchanges_after((state.past?.now_ns ?? 0) + 1)) {
     if (!is_wanted()) return;
@@ -94,7 +95,7 @@ export async function find_longest(): Promise<void> {
   }
   await ask_why_latency(longest.text, longest.answer_end_ns, longest.station);
   bring_into_view({ at_ns: longest.at_ns, end_ns: longest.answer_end_ns });
-  notice(`The longest of ${answers.count} answers: after ${duration_text(longest.answer_ns - longest.end_ns)}, to ${longest.text}`);
+  notice(`The ${answers.count === 1 ? 'only answer' : `longest of ${answers.count} answers`}: after ${duration_text(longest.answer_ns - longest.end_ns)}, to ${longest.text}`);
 }
 
 const kLongestScan = 'SMW26';  // ms since power-up
@@ -127,7 +128,7 @@ export async function find_longest_scan(): Promise<void> {
   const scans = spans?.tracks.filter((one) => one.kind === 'scans' && (one.station ?? '') === past.station).flatMap((one) => one.spans) ?? [];
   const scan = scans.sort((a, b) => b.end_ns - b.at_ns - (a.end_ns - a.at_ns))[0] ?? change;
   await show_found(scan);
-  notice(`The longest scan since power-up lasted ${ms} ms (${kLongestScan}): ${scan.text}; others may have lasted as many`);
+  notice(`The longest scan since power-up lasted ${ms} ms (${kLongestScan}): ${scan.text}. It counts whole ms: another scan may have lasted a little longer`);
 }
 
 const kLongestRun = 10e9;  // ns that are run for a condition when there is no past after this moment
