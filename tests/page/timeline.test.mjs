@@ -31,6 +31,15 @@ async function send(text) {
   await page.fill('#send-text', text);
   await page.press('#send-text', 'Enter');
 }
+/** Where the mark of the present is drawn, as a part of the timeline's width; nothing if it is out of view. */
+const present_at = () => page.$eval('#timeline', (canvas) => {
+  const colour = getComputedStyle(canvas).getPropertyValue('--now').trim(), dot = document.createElement('canvas').getContext('2d');
+  dot.fillStyle = colour;
+  dot.fillRect(0, 0, 1, 1);
+  const wanted = dot.getImageData(0, 0, 1, 1).data.join(), row = canvas.getContext('2d').getImageData(0, 1, canvas.width, 1).data;
+  const found = Array.from({ length: canvas.width }, (_, x) => x).filter((x) => row.slice(4 * x, 4 * x + 4).join() === wanted);
+  return found.length > 6 ? found[Math.floor(found.length / 2)] / canvas.width : null;
+});
 const names = () => page.$$eval('.track-name', (all) => all.map((one) => one.textContent));
 
 test('a request that is sent is answered: the table has both and the latency', async () => {
@@ -253,4 +262,28 @@ test('an interrupt is gone to; where there is none the page says so and stays', 
   assert.equal(await page.inputValue('#moment'), before);
   await page.keyboard.press('Escape');
   await page.waitForSelector('.notice', { state: 'detached' });
+});
+
+test('the present is in view, with room, at the end of the past and wherever a search leads', async () => {
+  const is_seen = async (what) => {
+    await page.waitForTimeout(400);
+    const at = await present_at();
+    assert.ok(at !== null && at > 0.01 && at < 0.99, `${what}: ${at}`);
+  };
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press('End');
+  await page.keyboard.press('0');
+  await is_seen('the whole past, at its end');
+  for (let i = 0; i < 9; ++i) await page.keyboard.press('+');
+  for (let i = 0; i < 30; ++i) await page.keyboard.press('ArrowLeft');
+  await page.keyboard.press('Shift+L');
+  await page.waitForSelector('.notice:has-text("longest of")');
+  await is_seen('the longest answer');
+  await page.keyboard.press('End');
+  await is_seen('the newest moment');
+  for (let i = 0; i < 30; ++i) await page.keyboard.press('ArrowLeft');
+  await page.click('#tab-line');
+  await page.click('.exchanges tr.trouble .why');
+  await page.waitForSelector('.trail li:has-text("no answer?")');
+  await is_seen('what kept a request from an answer');
 });

@@ -1,6 +1,7 @@
 // Why and who: each answer is a step of a trail that one walks back to the cause.
 import { changed, show_pane, state } from './state';
 import { command, go_to, look_at, query, Seen } from './session';
+import { bring_into_view } from './timeline/view';
 import type { Exchange } from './exchanges';
 import type { Cause, Done, Past, Value } from './protocol';
 
@@ -60,6 +61,7 @@ export async function go_to_verdict(one: Exchange): Promise<void> {
 
 export async function ask_why_unanswered(one: Exchange): Promise<void> {
   await go_to_verdict(one);
+  bring_into_view({ at_ns: one.at_ns, end_ns: Math.max(one.end_ns, state.past?.now_ns ?? 0) });
   await ask(`Why has ${in_short(one.request)} no answer?`, 'why');
 }
 

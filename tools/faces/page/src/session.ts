@@ -204,7 +204,8 @@ function forget_session(): void {
 function show_picture(): void {
   if (!state.picture) return;
   state.spans = state.picture;
-  state.window = { from_ns: state.picture.from_ns, to_ns: state.picture.to_ns };
+  const { from_ns, to_ns } = state.picture;
+  state.window = { from_ns, to_ns: to_ns + (to_ns - from_ns) / 30 };  // room for the present at its end
 }
 
 let at_first_moment = async (): Promise<void> => {};

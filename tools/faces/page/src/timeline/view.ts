@@ -12,10 +12,12 @@ const kFirstWindow = 200e6;
 /** Whether the window goes along with the present. */
 let goes_along = true;
 
+const kMargin = 0.03;  // of the window: the present is no nearer to its ends
+
 export function window_of(): { from_ns: number; to_ns: number } {
   if (state.window) return state.window;
-  const newest = state.past?.newest_ns ?? 0;
-  return { from_ns: Math.max(state.past?.oldest_ns ?? 0, newest - kFirstWindow), to_ns: Math.max(newest, 1e6) };
+  const newest = Math.max(state.past?.newest_ns ?? 0, 1e6), from_ns = Math.max(state.past?.oldest_ns ?? 0, newest - kFirstWindow);
+  return { from_ns, to_ns: newest + (newest - from_ns) * kMargin };
 }
 
 export async function spans_between(from_ns: number, to_ns: number, elements = kElements, watched: string[] = []): Promise<Spans | null> {
@@ -91,10 +93,15 @@ export function list_exchanges(direction: 1 | -1): void {
 
 export function start_timeline(): void {
   also_seen(new Seen(async () => {
-    if (goes_along) follow_present();
+    const now = state.past?.now_ns ?? 0, has_run = state.own_run || state.hello?.live;
+    if (goes_along || (now !== followed_ns && !has_run)) follow_present();
+    followed_ns = now;
     seen.refresh();
   }));
 }
+
+/** Where the present was last; it is sought again wherever one goes, but not while a run goes on. */
+let followed_ns = 0;
 
 /** The present stays in view: at the right end while it is new, in the middle after a jump. */
 function follow_present(): void {
@@ -102,7 +109,8 @@ function follow_present(): void {
   if (!past) return;
   const { from_ns, to_ns } = window_of();
   const length = to_ns - from_ns, now = past.now_ns;
-  if (now > to_ns || now < from_ns) {
+  const room = length * kMargin / 2, is_first = from_ns <= past.oldest_ns;
+  if (now > to_ns - room || now < from_ns + (is_first ? 0 : room)) {
     const from = Math.max(0, past.in_the_past ? now - length / 2 : now - length * 0.9);
     state.window = { from_ns: from, to_ns: from + length };
   }
@@ -139,7 +147,8 @@ export function move_to(from_ns: number): void {
 }
 
 export function show_all(): void {
-  show(state.past?.oldest_ns ?? 0, state.past?.newest_ns ?? 0);
+  const { oldest_ns = 0, newest_ns = 0 } = state.past ?? {};
+  show(oldest_ns, newest_ns + (newest_ns - oldest_ns) * kMargin);
 }
 
 export function set_cursor(which: 'a' | 'b', ns = state.past?.now_ns ?? 0): void {
@@ -174,9 +183,10 @@ export async function show_found(found: { at_ns: number; end_ns: number }): Prom
   bring_into_view(found);
 }
 
-/** It comes into view; of a window in which it would be less than a pixel, near enough to be seen. */
+/** It comes into view with room around it; of a window in which it would be less than a pixel, near enough to be seen. */
 export function bring_into_view(found: { at_ns: number; end_ns: number }): void {
-  const { from_ns, to_ns } = window_of(), length = Math.max(found.end_ns - found.at_ns, kLeastFound);
-  if (to_ns - from_ns > kWidest && length < kWidest) show(found.at_ns - length, found.end_ns + length);
-  else if (found.at_ns < from_ns || found.end_ns > to_ns) move_to(found.at_ns - (to_ns - from_ns) / 2);
+  const { from_ns, to_ns } = window_of(), window = to_ns - from_ns, room = 2 * kMargin * window;
+  const length = Math.max(found.end_ns - found.at_ns, kLeastFound), is_small = window > kWidest && length < kWidest;
+  if (is_small || length > window - 2 * room) show(found.at_ns - length / 2, found.end_ns + length / 2);
+  else if (found.at_ns < from_ns + room || found.end_ns > to_ns - room) move_to((found.at_ns + found.end_ns - window) / 2);
 }
