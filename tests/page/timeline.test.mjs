@@ -42,6 +42,31 @@ const present_at = () => page.$eval('#timeline', (canvas) => {
 });
 const names = () => page.$$eval('.track-name', (all) => all.map((one) => one.textContent));
 
+/** Columns of the canvas in the row of a track that are not of the pane's colour. */
+const drawn_columns = (name) => page.evaluate((name) => {
+  const canvas = document.querySelector('#timeline'), row = [...document.querySelectorAll('.track-name')].find((one) => one.textContent === name);
+  if (!row) return 0;
+  const y = row.getBoundingClientRect().bottom - canvas.getBoundingClientRect().top - 3;
+  const pixels = canvas.getContext('2d').getImageData(0, Math.round(y * devicePixelRatio), canvas.width, 1).data;
+  return Array.from({ length: canvas.width }, (_, x) => x).filter((x) => pixels[4 * x] < 0xd0).length / canvas.width;
+}, name);
+
+test('the timeline says when nothing has run yet, and is not blank while a run goes on', async () => {
+  assert.match(await page.textContent('.nothing-yet'), /Nothing has run yet/);
+  await page.selectOption('#pace', '1');
+  await page.click('#do-run');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 600);
+  for (let i = 0; i < 5; ++i) {
+    const part = await drawn_columns('scans');
+    assert.ok(part > 0.7, `${part} of the timeline has scans`);
+    assert.ok(await present_at() > 0.7);
+    await page.waitForTimeout(120);
+  }
+  await page.click('#do-run');
+  await page.waitForFunction(() => document.querySelector('#do-run').textContent === 'Run');
+  assert.equal(await page.locator('.nothing-yet').count(), 0);
+});
+
 test('a request that is sent is answered: the table has both and the latency', async () => {
   await run_for(200);
   await page.click('#tab-line');
@@ -214,6 +239,8 @@ test('a condition is searched for through the past, and by running on', async ()
 test('a damaged character is found from far away', async () => {
   await page.keyboard.press('Escape');
   await page.keyboard.press('End');
+  await page.waitForSelector('.tag.now');
+  await page.waitForFunction(() => document.querySelector('#do-run').textContent === 'Run');
   await page.click('#tab-line');
   await send('01 03p 00 0a 00 01 crc');
   await run_for(150);
@@ -266,12 +293,16 @@ test('an interrupt is gone to; where there is none the page says so and stays', 
 
 test('the present is in view, with room, at the end of the past and wherever a search leads', async () => {
   const is_seen = async (what) => {
-    await page.waitForTimeout(400);
-    const at = await present_at();
+    let at = null;
+    for (let i = 0; i < 50 && !(at > 0.01 && at < 0.99); ++i) {
+      await page.waitForTimeout(100);
+      at = await present_at();
+    }
     assert.ok(at !== null && at > 0.01 && at < 0.99, `${what}: ${at}`);
   };
   await page.evaluate(() => document.activeElement?.blur());
   await page.keyboard.press('End');
+  await page.waitForSelector('.tag.now');
   await page.keyboard.press('0');
   await is_seen('the whole past, at its end');
   for (let i = 0; i < 9; ++i) await page.keyboard.press('+');

@@ -53,7 +53,7 @@ function paint(node: HTMLCanvasElement): void {
   }
   const context = node.getContext('2d', { alpha: false })!;
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
-  shown = { scale: scale_of(width), rows, width, height, now_ns: state.past?.now_ns ?? 0, newest_ns: state.past?.newest_ns ?? 0,
+  shown = { scale: scale_of(width), rows, width, height, now_ns: timeline.shown_now(), newest_ns: timeline.runs_on() ? timeline.shown_now() : state.past?.newest_ns ?? 0,
     cursors: state.cursors, marks: state.marks, selected: state.selected_span };
   draw(context, shown, theme_of(node));
 }
@@ -170,6 +170,7 @@ export function timeline_pane(): Part {
       state.spans?.left_out?.length ? h('span', { class: 'small', title: 'Zoom in to 10 s or less' }, `zoom in for ${state.spans.left_out.join(', ')}`) : null),
     h('div', { class: 'tracks', onscroll: changed },
       h('div', { class: 'track-names', style: { width: `${labels_width()}px`, height: `${height_of(rows_of(shown_spans(), 0))}px` } }, labels()),
+      state.past?.newest_ns === 0 ? h('p', { class: 'empty nothing-yet' }, 'Nothing has run yet: Run, or a step, brings what happens here.') : null,
       h('div', { class: 'track-canvas' }, h('canvas', { id: 'timeline', tabindex: '0', role: 'img', 'aria-label': 'Timeline: plus and minus zoom, arrows move, e finds the next error', ref: paint,
         onwheel: on_wheel, onpointerdown: on_down, onpointermove: on_move, onpointerup: on_up, onpointercancel: () => { drag = null; },
         onpointerleave: () => { if (told !== '') { told = ''; changed(); } } }))));

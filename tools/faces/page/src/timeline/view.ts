@@ -32,7 +32,10 @@ const seen: Seen = new Seen(async () => {
   if (state.running) await new Promise((done) => setTimeout(done, kRest));
   const past = state.past;
   if (!past || !state.outline) return;
-  const { from_ns, to_ns } = window_of();
+  const while_running = state.running, follows = runs_on() && goes_along;
+  if (goes_along && !follows) follow_present();
+  if (follows) state.window ??= { from_ns: window_of().from_ns, to_ns: window_of().from_ns + kFirstWindow * (1 + kMargin) };
+  const window = follows ? window_at_present() : window_of(), { from_ns, to_ns } = window;
   const length = to_ns - from_ns;
   const first = Math.max(past.oldest_ns, from_ns - length / 4), last = Math.min(past.newest_ns, to_ns + length / 4);
   if (last <= first) return;
@@ -41,11 +44,12 @@ const seen: Seen = new Seen(async () => {
     return;
   }
   if (state.picture && !covers(state.spans, from_ns, to_ns)) state.spans = state.picture;
-  const late = setTimeout(() => { state.computing = true; changed(); }, kLate), while_running = state.running;
+  const late = setTimeout(() => { state.computing = true; changed(); }, kLate);
   const spans = await spans_between(first, last, kElements, state.watched);
   clearTimeout(late);
   state.computing = false;
   if (spans) state.spans = spans;
+  if (spans && follows && goes_along) state.window = window;
   if (spans?.interrupted && while_running) seen.refresh();  // it was the run that was stopped
 });
 
@@ -93,8 +97,8 @@ export function list_exchanges(direction: 1 | -1): void {
 
 export function start_timeline(): void {
   also_seen(new Seen(async () => {
-    const now = state.past?.now_ns ?? 0, has_run = state.own_run || state.hello?.live;
-    if (goes_along || (now !== followed_ns && !has_run)) follow_present();
+    const now = state.past?.now_ns ?? 0;
+    if (!runs_on() && (goes_along || now !== followed_ns)) follow_present();
     followed_ns = now;
     seen.refresh();
   }));
@@ -102,6 +106,24 @@ export function start_timeline(): void {
 
 /** Where the present was last; it is sought again wherever one goes, but not while a run goes on. */
 let followed_ns = 0;
+
+/** Whether a run goes on, not just a step: then the timeline shows what was known of it last. */
+export function runs_on(): boolean {
+  return state.running && (state.own_run || state.hello?.live === true);
+}
+
+/** The present as the timeline shows it. */
+export function shown_now(): number {
+  const now = state.past?.now_ns ?? 0;
+  return runs_on() ? Math.min(now, state.spans?.to_ns ?? now) : now;
+}
+
+/** As wide as the window is, with the present at its right end. */
+function window_at_present(): { from_ns: number; to_ns: number } {
+  const { from_ns, to_ns } = window_of(), length = to_ns - from_ns, now = state.past!.now_ns;
+  const from = now > from_ns && now < to_ns - length * kMargin / 2 ? from_ns : Math.max(0, now - length * (1 - kMargin));
+  return { from_ns: from, to_ns: from + length };
+}
 
 /** The present stays in view: at the right end while it is new, in the middle after a jump. */
 function follow_present(): void {
@@ -121,7 +143,7 @@ function show(from_ns: number, to_ns: number): void {
   const length = Math.min(Math.max(kLeastWindow, to_ns - from_ns), newest * 1.2);
   const from = Math.min(Math.max(-length * 0.05, from_ns), newest - length * 0.1);
   state.window = { from_ns: from, to_ns: from + length };
-  const now = state.past?.now_ns ?? 0;
+  const now = shown_now();
   goes_along = now >= from && now <= from + length;
   seen.refresh();
   changed();
@@ -130,7 +152,7 @@ function show(from_ns: number, to_ns: number): void {
 /** Around the present, or around `ns`, which keeps its place. */
 export function zoom_by(factor: number, ns?: number): void {
   const { from_ns, to_ns } = window_of();
-  const now = state.past?.now_ns ?? 0;
+  const now = shown_now();
   const fixed = ns ?? (now >= from_ns && now <= to_ns ? now : (from_ns + to_ns) / 2);
   show(fixed - (fixed - from_ns) * factor, fixed + (to_ns - fixed) * factor);
 }
