@@ -110,6 +110,10 @@ test('a pulse train counts in simulated time, whatever the pace', async () => {
   const input = other.locator('[aria-label^="Input I0.0"]');
   await input.click({ button: 'right' });
   await input.click({ button: 'right' });
+  await other.waitForFunction(() => document.activeElement?.classList.contains('hertz'));
+  await other.keyboard.type('25');
+  await other.keyboard.press('Enter');
+  assert.equal(await other.inputValue('[aria-label="Pulses a second at I0.0"]'), '25 Hz');
   await other.fill('[aria-label="Pulses a second at I0.0"]', '2000');
   await other.keyboard.press('Enter');
   await other.waitForSelector('.notice.error:has-text("from 0.01 to 1000")');

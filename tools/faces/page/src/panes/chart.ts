@@ -182,9 +182,20 @@ function next_kind(row: PointRow): SwitchKind {
   return kinds[(kinds.indexOf(row.kind) + 1) % kinds.length]!;
 }
 
+/** The pulse train that has just been made: its field has the focus, so that one can type how many pulses. */
+let begun_pulses = '';
+
+function focus_field(field: HTMLInputElement, address: string): void {
+  if (begun_pulses !== address) return;
+  begun_pulses = '';
+  field.focus();
+  field.select();
+}
+
 async function change_kind(row: PointRow): Promise<void> {
   if (is_pulsing(row.address)) await toggle_pulses(row);
   row.kind = next_kind(row);
+  if (row.kind === 'pulses') begun_pulses = row.address;
   changed();
 }
 
@@ -213,7 +224,7 @@ function input_switch(row: PointRow): Part {
 }
 
 function hertz_field(row: PointRow): Part {
-  return h('input', { class: 'hertz', value: `${row.hertz} Hz`, 'aria-label': `Pulses a second at ${row.address}`, title: `Pulses a second, up to ${kMostHertz}`, autocomplete: 'off', spellcheck: 'false',
+  return h('input', { class: 'hertz', ref: (field: HTMLInputElement) => focus_field(field, row.address), value: `${row.hertz} Hz`, 'aria-label': `Pulses a second at ${row.address}`, title: `Pulses a second, up to ${kMostHertz}`, autocomplete: 'off', spellcheck: 'false',
     onchange: (event: Event) => {
       const field = event.target as HTMLInputElement;
       if (!set_hertz(row, field.value)) notice(`'${field.value}' is not a number of pulses a second from 0.01 to ${kMostHertz}`, 'error');
