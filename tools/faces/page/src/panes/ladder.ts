@@ -179,6 +179,7 @@ function follow(all: { place: Place; top: number; height: number }[]): void {
   const op = state.past?.op ?? null;
   if (!scroller || !state.follow || op === null || op === followed) return;
   followed = op;
+  wanted_line = null;
   const found = all.find(({ place }) => op >= place.first && op < place.end);
   const seen_height = Math.min(found?.height ?? 0, scroller.clientHeight - 20);
   if (found && (found.top < scroller.scrollTop || found.top + seen_height > scroller.scrollTop + scroller.clientHeight)) scroller.scrollTop = Math.max(0, found.top - 20);
