@@ -77,7 +77,7 @@ test('what an interrupt has waited is drawn above its track, not over the words 
 });
 
 test('durations are said in the unit that fits', () => {
-  const said = { 0: '0 ns', 3200: '3.2 µs', 20830000: '20.83 ms', 1500000000: '1.5 s', 90000000000: '1.5 min' };
+  const said = { 0: '0 ns', 3200: '3.2 µs', 20830000: '20.83 ms', 37251712: '37.252 ms', 1500000000: '1.5 s', 90000000000: '1.5 min' };
   for (const [ns, text] of Object.entries(said)) assert.equal(parts.duration_text(Number(ns)), text);
 });
 
@@ -133,6 +133,30 @@ test('an answer to a request before the part that is looked at is no request', (
   }
   const master = parts.exchanges_of(part(frame('sent 01 06: station 1: write single register', 10, 20), frame('received 01 06: written', 30, 40)), 100);
   assert.deepEqual(master.map((one) => [one.sent, one.answer]), [[true, '01 06: written']]);
+});
+
+test('what is wrong with an element is said once', () => {
+  const track = { kind: 'events', name: 'events', exact: true, spans: [] }, lost = 'INT 10 LOST: its queue is full';
+  const say = (error) => parts.span_text(track, { text: lost, at_ns: 0, end_ns: 0, error });
+  assert.equal(say('LOST: its queue is full').match(/LOST/g).length, 1);
+  assert.match(say('parity error'), /parity error$/);
+});
+
+/** How light a colour is, as WCAG 2.1 reckons it. */
+function luminance(colour) {
+  const [r, g, b] = [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16) / 255).map((c) => (c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+}
+
+test('what is written on tracks can be read: its contrast is 4.5 at least, in the dark too', () => {
+  const style = readFileSync(path.join(process.env.SOURCE, 'tools/faces/page/page.css'), 'utf8'), [light, dark] = style.split(':root[data-theme="dark"]');
+  for (const theme of [light, dark]) {
+    const colour = (name) => new RegExp(`--${name}: (#[0-9a-f]{6})`).exec(theme)[1];
+    for (const name of ['received', 'sent', 'interrupts', 'scans', 'networks', 'routines']) {
+      const [low, high] = [luminance(colour(name)), luminance(colour('on-colour'))].sort((a, b) => a - b);
+      assert.ok((high + 0.05) / (low + 0.05) >= 4.5, `${name}: ${(high + 0.05) / (low + 0.05)}`);
+    }
+  }
 });
 
 test('errors are the first track', () => {

@@ -181,7 +181,7 @@ test('what is between the cursors is measured: count, shortest, average, longest
   const cells = async (name) => page.locator(`.measured tr:has(th:text-is("${name}")) td`).allTextContents();
   const frames = await cells('port 0 frames'), characters = await cells('port 0 received'), scans = await cells('scans');
   assert.equal(frames[0], '5', 'three requests and two answers');
-  assert.deepEqual(characters.slice(0, 4), ['24', '1.14583 ms', '1.14583 ms', '1.14583 ms'], '11 bits');
+  assert.deepEqual(characters.slice(0, 4), ['24', '1.146 ms', '1.146 ms', '1.146 ms'], '11 bits');
   const [shortest, average, longest] = scans.slice(1, 4).map((text) => parseFloat(text) * (text.endsWith('µs') ? 1 : 1000));
   assert.ok(shortest < average && average < longest, scans.join());
   assert.ok(await page.locator('.measured .histogram').count() > 3);

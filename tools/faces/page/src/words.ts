@@ -26,16 +26,16 @@ export function moment_word(ns: number): string {
   return `${Math.round(ns)}ns`;
 }
 
-/** `1.234 ms`: three or four digits that say something, in the unit that fits. */
+/** `1.234 ms`, in the unit that fits: down to the microsecond, as the session's answers have it. */
 export function duration_text(ns: number): string {
   const size = Math.abs(ns);
   const [unit, name] = size < 1e3 ? [1, 'ns'] : size < 1e6 ? [1e3, 'µs'] : size < kSecond ? [kMs, 'ms']
     : size < 60 * kSecond ? [kSecond, 's'] : size < 3600 * kSecond ? [60 * kSecond, 'min'] : [3600 * kSecond, 'h'];
-  return `${trimmed(ns / unit)} ${name}`;
+  return `${trimmed(ns / unit, unit === kMs ? 3 : undefined)} ${name}`;
 }
 
-function trimmed(value: number): string {
-  const text = value.toPrecision(6);
+function trimmed(value: number, decimals?: number): string {
+  const text = decimals === undefined ? value.toPrecision(6) : value.toFixed(decimals);
   return text.includes('.') && !text.includes('e') ? text.replace(/\.?0+$/, '') : String(Number(text));
 }
 

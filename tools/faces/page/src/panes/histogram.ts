@@ -7,7 +7,8 @@ const kBars = 24, kWidth = 120, kHeight = 20;
 export function histogram(numbers: number[], text = duration_text): Part | null {
   if (numbers.length < 2) return null;
   const least = numbers.reduce((a, b) => Math.min(a, b)), most = numbers.reduce((a, b) => Math.max(a, b));
-  const width = (most - least) / kBars || 1;
+  if (least === most) return null;
+  const width = (most - least) / kBars;
   const counts = new Array<number>(kBars).fill(0);
   for (const one of numbers) counts[Math.min(kBars - 1, Math.floor((one - least) / width))]! += 1;
   const highest = Math.max(...counts), bar = kWidth / kBars;

@@ -25,6 +25,7 @@ function labels_width(): number {
 let canvas: HTMLCanvasElement | null = null;
 let shown: View | null = null;
 let drag: { x: number; from_ns: number; measures: boolean; moved: boolean } | null = null;
+let pointer: { x: number; y: number } | null = null;
 let told = '';
 
 function theme_of(node: HTMLElement): Theme {
@@ -56,6 +57,15 @@ function paint(node: HTMLCanvasElement): void {
   shown = { scale: scale_of(width), rows, width, height, now_ns: timeline.shown_now(), newest_ns: timeline.runs_on() ? timeline.shown_now() : state.past?.newest_ns ?? 0,
     cursors: state.cursors, marks: state.marks, selected: state.selected_span };
   draw(context, shown, theme_of(node));
+  tell();
+}
+
+/** What the pointer is over, which zooming and steps change too. */
+function tell(): void {
+  const under = pointer && !drag && shown ? span_at(shown, pointer.x, pointer.y) : null, text = under ? span_text(under.track, under.span) : '';
+  if (text === told) return;
+  told = text;
+  changed();
 }
 
 function point(event: MouseEvent): { x: number; y: number } {
@@ -81,12 +91,8 @@ function on_down(event: PointerEvent): void {
 function on_move(event: PointerEvent): void {
   if (!shown) return;
   const { x, y } = point(event);
-  if (!drag) {
-    const under = span_at(shown, x, y);
-    const text = under ? span_text(under.track, under.span) : '';
-    if (text !== told) { told = text; changed(); }
-    return;
-  }
+  pointer = { x, y };
+  if (!drag) return tell();
   if (Math.abs(x - drag.x) < 3 && !drag.moved) return;
   drag.moved = true;
   if (drag.measures) {
@@ -117,7 +123,7 @@ function measured(): string {
     const count = inside.reduce((sum, one) => sum + (one.count ?? 1), 0);
     return count > 0 ? `${track.name} ${count}` : '';
   }).filter((text) => text !== '');
-  return [`B − A = ${duration_text(to - from)}`, ...counts].join(' · ');
+  return [`B − A = ${b_ns < a_ns ? '−' : ''}${duration_text(to - from)}`, ...counts].join(' · ');
 }
 
 function name_of(track: SpanTrack): string {
@@ -160,7 +166,7 @@ export function timeline_pane(): Part {
       tool('next-error', 'Next lost character or error (e)', () => void search.find_error(1), icon('forward')),
       tool('next-unanswered', 'Next unanswered request (u)', () => void search.find_unanswered(), 'unanswered'),
       h('form', { class: 'condition', onsubmit: (event: Event) => { event.preventDefault(); void search.find_condition((event.target as HTMLElement).querySelector('input')!.value); } },
-        h('input', { id: 'condition', placeholder: 'next time VW20 > 5', 'aria-label': 'Go to the next time that this comes to hold', title: 'A condition in STL terms (x)', autocomplete: 'off', spellcheck: 'false' })),
+        h('input', { id: 'condition', placeholder: 'next VW20 > 5', 'aria-label': 'Go to the next time that this comes to hold', title: 'A condition in STL terms (x)', autocomplete: 'off', spellcheck: 'false' })),
       tool('compare', 'Two futures: keep this one, change something, compare (c)', () => void compare_futures(), state.first_future ? 'End comparison' : 'What if?'),
       state.first_future ? tool('second', 'Run as far as the first future goes', () => void run_second(), icon('run')) : null,
       tool('a', 'Cursor A here ([)', () => timeline.set_cursor('a'), 'A'), tool('b', 'Cursor B here (])', () => timeline.set_cursor('b'), 'B'),
@@ -173,5 +179,5 @@ export function timeline_pane(): Part {
       state.past?.newest_ns === 0 ? h('p', { class: 'empty nothing-yet' }, 'Nothing has run yet: Run, or a step, brings what happens here.') : null,
       h('div', { class: 'track-canvas' }, h('canvas', { id: 'timeline', tabindex: '0', role: 'img', 'aria-label': 'Timeline: plus and minus zoom, arrows move, e finds the next error', ref: paint,
         onwheel: on_wheel, onpointerdown: on_down, onpointermove: on_move, onpointerup: on_up, onpointercancel: () => { drag = null; },
-        onpointerleave: () => { if (told !== '') { told = ''; changed(); } } }))));
+        onpointerleave: () => { pointer = null; tell(); } }))));
 }

@@ -123,7 +123,7 @@ function draw_spans(c: CanvasRenderingContext2D, view: View, row: Row, theme: Th
       c.globalAlpha = strength_of(track, one);
       c.fillRect(x, top, Math.max(1, width - 0.5), height);
       c.globalAlpha = 1;
-      if (width > 14 && !draw_levels(c, view, row, one, theme)) label(c, label_of(track, one), x, top + height / 2, width, theme['on-colour']!);
+      if (width > 14 && !draw_levels(c, view, row, one, theme)) label(c, label_of(track, one), x, top + height / 2, width, theme[strength_of(track, one) < 1 ? 'text' : 'on-colour']!);
       if (one === view.selected) { c.strokeStyle = theme['text']!; c.lineWidth = 1.5; c.strokeRect(x, top, width, height); }
     }
   }
@@ -253,6 +253,15 @@ function draw_grid(c: CanvasRenderingContext2D, view: View, theme: Theme): void 
   c.stroke();
 }
 
+const kFlag = 13, kPointer = 10;  // pixels: what a cursor or mark has in the ruler, and the present
+
+/** What stands in the ruler beside its numbers, which make room for it. */
+function flags_of(view: View): { x: number; end: number }[] {
+  const x = (ns: number): number => x_of(view.scale, ns);
+  const named = [view.cursors.a_ns, view.cursors.b_ns, ...view.marks].filter((ns): ns is number => ns !== null);
+  return [...named.map((ns) => ({ x: x(ns), end: x(ns) + kFlag })), { x: x(view.now_ns) - kPointer / 2, end: x(view.now_ns) + kPointer / 2 }];
+}
+
 /** Over the tracks, which move below it. */
 function draw_ruler(c: CanvasRenderingContext2D, view: View, theme: Theme): void {
   c.fillStyle = theme['ruler']!;
@@ -261,9 +270,11 @@ function draw_ruler(c: CanvasRenderingContext2D, view: View, theme: Theme): void
   c.lineWidth = 1;
   c.fillStyle = theme['text']!;
   c.beginPath();
+  const flags = flags_of(view);
   for (const { x, text } of marks_of(view.scale)) {
     c.moveTo(x, kRuler - 6); c.lineTo(x, kRuler);
-    if (x + 3 + c.measureText(text).width <= view.scale.right) c.fillText(text, x + 3, kRuler / 2);
+    const width = c.measureText(text).width, flag = flags.find((one) => one.x < x + 4 + width && one.end > x + 2), start = flag ? flag.end + 3 : x + 3;
+    if (start + width <= view.scale.right && start < x + 60) c.fillText(text, start, kRuler / 2);
   }
   c.stroke();
 }
@@ -349,6 +360,6 @@ export function span_text(track: SpanTrack, one: Span): string {
     if (one.occurred_ns !== undefined && one.occurred_ns < one.at_ns) parts.push(`waited ${duration_text(one.at_ns - one.occurred_ns)}`);
     if (one.why) parts.push(one.why);
   }
-  if (one.error !== undefined) parts.push(one.error);
+  if (one.error !== undefined && !parts.some((part) => part.includes(one.error!))) parts.push(one.error);
   return with_times(parts.filter((part) => part !== '').join(' · '));
 }
