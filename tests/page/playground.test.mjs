@@ -92,6 +92,17 @@ test('mistakes are beside the program, in whole sentences, how many there are fi
   await page.close();
 });
 
+test('how a program was read, and for which CPU, is noted as check notes it', async () => {
+  const page = await open();
+  await drop(page, { name: 'post.awl', text: '<p>NETWORK 1<br>LD &nbsp;I0.0<br>= Q9.0<br>MEND</p>' });
+  await page.waitForSelector('.notice:has-text("post.awl: read as plain text: no-break and other Unicode blanks, HTML; the first in line 1")');
+  await drop(page, { name: 'post.awl', text: '<p>NETWORK 1<br>LD &nbsp;I0.0<br>MOVB VW100, VB2<br>MEND</p>' });
+  await page.waitForSelector('.diagnostics .note:has-text("read as plain text")');
+  await drop(page, { name: 'newer.awl', text: 'NETWORK 1\nLD SM0.0\n/I 2, VW0\nMEND\n' });
+  await page.waitForSelector('.notice:has-text("as on a CPU 224")');
+  await page.close();
+});
+
 test('what was missing is not said of a program with mistakes', async () => {
   const page = await open();
   await page.click('#check-and-run');

@@ -200,6 +200,12 @@ test('the ladder has the power flow of the moment, and its addresses have their 
   await page.selectOption('.navigator', { label: 'INT 0' });
   await page.locator('.ladder-network', { hasText: 'INT 0, network 1' }).locator('svg').waitFor();
   await page.evaluate(() => document.activeElement.blur());
+  assert.equal(await page.getAttribute('.toggle:text-is("Follow")', 'aria-pressed'), 'true');
+  await page.keyboard.press('.');
+  await page.waitForFunction(() => {
+    const here = document.querySelector('.ladder-network.here')?.getBoundingClientRect(), seen = document.querySelector('.ladders').getBoundingClientRect();
+    return here && here.top >= seen.top - 1 && here.top < seen.bottom;
+  });
   await page.keyboard.press('v');
   await page.waitForSelector('.row');
   assert.deepEqual(page.troubles, []);

@@ -1,7 +1,7 @@
 // A program that is dropped on the page, checked, and run in the browser.
 import { sources_in, sources_of } from './files';
 import { changed, notice, state, the_engine } from './state';
-import type { Source } from './protocol';
+import type { Opened, Source } from './protocol';
 
 export function can_open(): boolean {
   return the_engine().open !== undefined;
@@ -14,6 +14,14 @@ function leave_out_unreadable(error: string): void {
   state.sources = kept;
   state.opening = state.outline === null;
   changed();
+}
+
+const kUsualCpu = '214';
+
+/** What the command notes beside mistakes: how the text was read, and for which CPU if it is not the usual one. */
+function notes_of(opened: Opened): string[] {
+  const cpu = opened.cpu ?? kUsualCpu, of_cpu = `It runs as on a CPU ${cpu}, which its head names or which is the first that can run it; PLC type chooses another`;
+  return [...(opened.notes ?? []), ...(state.cpu === '' && cpu !== kUsualCpu ? [of_cpu] : [])];
 }
 
 /** Checks the program; if it is fine there is a session, which says hello by itself. */
@@ -35,7 +43,9 @@ export async function open_program(): Promise<void> {
   const read = new Map(reply.json.sources?.map(({ name, text }) => [name, text]));
   state.sources = state.sources.map((one) => (one.hex === undefined ? one : { name: one.name, text: read.get(one.name) ?? one.text }));
   state.check_text = reply.json.text;
+  state.check_notes = notes_of(reply.json);
   state.opening = !reply.json.opened;
+  if (reply.json.opened && state.check_notes.length > 0) notice(state.check_notes.join('\n'));
   changed();
 }
 

@@ -319,6 +319,9 @@ export interface Source {
 }
 
 export interface Opened {
+  /** What is worth knowing of how it was read. */
+  notes?: string[];
+  cpu?: string;
   diagnostics: Diagnostic[];
   text: string;
   opened: boolean;

@@ -123,6 +123,7 @@ export interface State {
   cpu: string;
   opening: boolean;
   check_text: string;
+  check_notes: string[];
 }
 
 export const state: State = {
@@ -183,6 +184,7 @@ export const state: State = {
   cpu: '',
   opening: false,
   check_text: '',
+  check_notes: [],
 };
 
 let engine: Engine | undefined;

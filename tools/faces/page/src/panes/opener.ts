@@ -58,7 +58,7 @@ function said(): Part | null {
     if (!place) return h('div', { class: keeps_columns(line, all[i - 1], all[i + 1]) ? 'columns' : '' }, line === '' ? ' ' : line);
     const shows = place[1] === state.sources[0]?.name ? () => show_line(Number(place[2])) : undefined;
     return h(shows ? 'button' : 'div', { class: `${place[3]}${shows ? ' leads' : ''}`, title: shows ? 'Show the line' : '', onclick: shows }, line);
-  }));
+  }), state.check_notes.map((note) => h('div', { class: 'note' }, `note: ${note}`)));
 }
 
 export function opener(): Part {
@@ -75,5 +75,5 @@ export function opener(): Part {
         h('option', { value: '', selected: state.cpu === '' }, 'PLC type: found'), kCpus.map((cpu) => h('option', { value: cpu, selected: state.cpu === cpu }, `CPU ${cpu}`))),
       h('button', { id: 'check-and-run', onclick: () => void open_program() }, icon('run'), 'Check and run')),
     h('p', { class: 'hint' }, 'Drop an .awl or STL listing here, with its symbol table and data block; or type a program. Nothing leaves this PC.'),
-    h('div', { class: 'opener-work' }, said(), h('textarea', { 'aria-label': 'Program', spellcheck: 'false', wrap: 'off', value: program_text(), oninput: (event: Event) => type_program((event.target as HTMLTextAreaElement).value) })));
+    h('div', { class: 'opener-work' }, said(), h('textarea', { 'aria-label': 'Program', placeholder: 'Type or paste a program', spellcheck: 'false', wrap: 'off', value: program_text(), oninput: (event: Event) => type_program((event.target as HTMLTextAreaElement).value) })));
 }
