@@ -335,7 +335,10 @@ test('what is printed is light, whole, and as wide as the paper', async () => {
   const theme = () => page.evaluate(() => document.documentElement.dataset.theme);
   assert.equal(await theme(), 'dark');
   await page.emulateMedia({ media: 'print' });
-  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  await page.evaluate(() => {
+    document.body.style.width = '718px';  // A4 with margins of 10 mm
+    dispatchEvent(new Event('beforeprint'));
+  });
   assert.equal(await theme(), 'light');
   const { canvas, tracks, overlapping } = await page.evaluate(() => {
     const tops = [...document.querySelectorAll('.row')].map((row) => row.getBoundingClientRect().top);
@@ -344,6 +347,13 @@ test('what is printed is light, whole, and as wide as the paper', async () => {
   });
   assert.ok(canvas.right < 720 && Math.abs(canvas.height - tracks.height) < 2, `${canvas.right}, ${canvas.height}, ${tracks.height}`);
   assert.equal(overlapping, 0);
+  const { short, cut, asked } = await page.evaluate(() => ({
+    short: document.querySelector('.timeline').getBoundingClientRect().right - document.querySelector('#timeline').getBoundingClientRect().right,
+    cut: [...document.querySelectorAll('.row .text')].filter((one) => one.scrollWidth > one.clientWidth + 1).length,
+    asked: [...document.querySelectorAll('.why, .ask')].filter((one) => one.checkVisibility()).length,
+  }));
+  assert.ok(short < 8, `the timeline ends ${short} pixels before the edge`);
+  assert.deepEqual([cut, asked], [0, 0], 'no comment is cut, nothing can be asked');
   await picture(page, 'report_on_paper');
   await page.evaluate(() => dispatchEvent(new Event('afterprint')));
   assert.equal(await theme(), 'dark');

@@ -13,7 +13,7 @@ import { duration_text } from '../words';
 import type { SpanTrack } from '../protocol';
 
 const kLabels = 118, kLabelsOfSystem = 178;
-const kPaper = { width: 700, height: 840 };
+const kPaper = { width: 718, height: 840 };
 
 const is_narrow = (): boolean => innerWidth <= 760;
 
