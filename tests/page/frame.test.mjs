@@ -41,6 +41,8 @@ test('steps go forwards and backwards, by buttons and by keys', async () => {
 test('Run follows the clock at the pace that is chosen, and Space pauses it', async () => {
   const page = await open(chrome, plc.address);
   await page.keyboard.press('End');
+  await page.waitForSelector('.tag.now');
+  await page.waitForFunction(() => document.querySelector('#do-run').textContent === 'Run');
   const began = await moment(page);
   await page.selectOption('#pace', '10');
   await page.keyboard.press('Escape');

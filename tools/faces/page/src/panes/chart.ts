@@ -182,7 +182,7 @@ function next_kind(row: PointRow): SwitchKind {
   return kinds[(kinds.indexOf(row.kind) + 1) % kinds.length]!;
 }
 
-/** The pulse train that has just been made: its field has the focus, so that one can type how many pulses. */
+/** The pulse train that a right click has just made: its field has the focus, so that one can type how many pulses. */
 let begun_pulses = '';
 
 function focus_field(field: HTMLInputElement, address: string): void {
@@ -192,10 +192,10 @@ function focus_field(field: HTMLInputElement, address: string): void {
   field.select();
 }
 
-async function change_kind(row: PointRow): Promise<void> {
+async function change_kind(row: PointRow, with_mouse: boolean): Promise<void> {
   if (is_pulsing(row.address)) await toggle_pulses(row);
   row.kind = next_kind(row);
-  if (row.kind === 'pulses') begun_pulses = row.address;
+  if (row.kind === 'pulses' && with_mouse) begun_pulses = row.address;
   changed();
 }
 
@@ -215,10 +215,10 @@ function input_switch(row: PointRow): Part {
         if (event.key === ' ' && !event.repeat) press(1)({});
         if (event.key !== 'ContextMenu' && !(event.key === 'F10' && event.shiftKey)) return;
         event.preventDefault();
-        void change_kind(row);
+        void change_kind(row, false);
       },
       onkeyup: (event: KeyboardEvent) => { if (event.key === ' ') press(0)({}); },
-      oncontextmenu: (event: Event) => { event.preventDefault(); void change_kind(row); } },
+      oncontextmenu: (event: Event) => { event.preventDefault(); void change_kind(row, true); } },
     kind === 'pulses' ? h('svg', { viewBox: '0 0 34 14', 'aria-hidden': 'true' }, h('path', { d: 'M3 11H8V3H14V11H20V3H26V11H31' })) : h('i', {})),
     kind === 'pulses' ? hertz_field(row) : null, point_name(address));
 }
