@@ -51,13 +51,14 @@ test('what the session says has its times as the page writes them', () => {
 
 /** What is drawn on a canvas: texts, and the lines of each stroke in their colour. */
 function drawn(view) {
-  const texts = [], lines = [];
+  const texts = [], lines = [], rects = [];
   let from, path = [];
-  const c = { texts, lines, measureText: (text) => ({ width: 6 * text.length }), fillText: (text, x, y) => texts.push({ text, x, y }), beginPath: () => { path = []; },
+  const c = { texts, lines, measureText: (text) => ({ width: 6 * text.length }), fillText(text, x, y) { texts.push({ text, x, y, colour: this.fillStyle }); }, beginPath: () => { path = []; },
     moveTo: (x, y) => { from = [x, y]; }, lineTo: (x, y) => { path.push([from, [x, y]]); from = [x, y]; }, stroke() { for (const line of path) lines.push({ colour: this.strokeStyle, line }); } };
-  for (const name of ['fillRect', 'strokeRect', 'fill']) c[name] = () => {};
+  c.fillRect = function (x, y, width, height) { rects.push({ colour: this.fillStyle, x, y, width, height }); };
+  for (const name of ['strokeRect', 'fill']) c[name] = () => {};
   parts.draw(c, { now_ns: 0, newest_ns: view.scale.to_ns, cursors: { a_ns: null, b_ns: null }, marks: [], selected: null, ...view }, new Proxy({}, { get: (_none, name) => name }));
-  return { texts, lines };
+  return { texts, lines, rects };
 }
 
 test('late in a run the ruler counts seconds, then as a clock', () => {
@@ -74,6 +75,27 @@ test('what an interrupt has waited is drawn above its track, not over the words 
   const words = texts.find((one) => one.text.startsWith('INT 0')), waits = lines.filter((one) => one.colour === 'wait');
   assert.ok(waits.some(({ line: [a, b] }) => a[0] === 300 && b[0] === 700), 'from the event to its interrupt');
   for (const { line } of waits) for (const [, y] of line) assert.ok(y < words.y - 4.5, `${y} is above the letters at ${words.y}`);
+});
+
+test('what differs is marked from where it is in view to its end, and no further', () => {
+  const spans = [{ at_ns: -500, end_ns: 50, text: '', value: 0, differs: true }, { at_ns: 50, end_ns: 90, text: '', value: 1 }];
+  const rows = parts.rows_of({ tracks: [{ kind: 'value', name: 'Q0.0', exact: true, spans }] }, 0);
+  const { rects } = drawn({ scale: { from_ns: 0, to_ns: 100, left: 0, right: 1000 }, rows, width: 1000, height: 200 });
+  assert.deepEqual(rects.filter((one) => one.colour === 'cursor').map(({ x, width }) => [x, width]), [[0, 500]]);
+});
+
+test('the numbers of the ruler make room for cursors and the present', () => {
+  const scale = { from_ns: 0, to_ns: 1000, left: 0, right: 1000 };
+  const of = (cursors) => drawn({ scale, rows: [], width: 1000, height: 200, now_ns: 950, cursors }).texts.find((one) => one.text === '0.4 µs').x;
+  assert.equal(of({ a_ns: null, b_ns: null }), 403.5);
+  assert.ok(of({ a_ns: 405, b_ns: null }) > 405 + 13);
+});
+
+test('the name of a network without power flow, which is pale, is dark', () => {
+  const spans = [0, 1].map((value) => ({ at_ns: 50 * value, end_ns: 50 * value + 50, text: `network ${value}`, value }));
+  const rows = parts.rows_of({ tracks: [{ kind: 'networks', name: 'networks', exact: true, spans }] }, 0);
+  const { texts } = drawn({ scale: { from_ns: 0, to_ns: 100, left: 0, right: 1000 }, rows, width: 1000, height: 200 });
+  assert.deepEqual(texts.filter((one) => one.text.startsWith('network')).map((one) => one.colour), ['text', 'on-colour']);
 });
 
 test('durations are said in the unit that fits', () => {

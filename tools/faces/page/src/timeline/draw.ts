@@ -208,7 +208,10 @@ function draw_value(c: CanvasRenderingContext2D, view: View, row: Row, theme: Th
     most = Math.max(most, one.most ?? one.value ?? 0);
   }
   const differs: [number, number][] = track.spans.slice(first, last).filter((one) => one.differs)
-    .map((one) => [Math.max(scale.left, x_of(scale, one.at_ns)), Math.max(2, x_of(scale, one.end_ns) - x_of(scale, one.at_ns))]);
+    .map((one) => {
+      const x = Math.max(scale.left, x_of(scale, one.at_ns));
+      return [x, Math.max(2, Math.min(scale.right, x_of(scale, one.end_ns)) - x)];
+    });
   draw_differences(c, row, differs, theme);
   const bit = is_bit(track);
   if (bit) { least = 0; most = 1; }
