@@ -272,6 +272,19 @@ test('what is refused is said in few words, until the next is not; what is sent 
   await page.waitForSelector('.notice.error:has-text("The last frame is still under way or waiting for its answer: Run on first")');
   await run_for(150);
   await page.waitForSelector('.exchanges tr.waits', { state: 'detached' });
+
+test('a condition is searched for beyond the answers on the way', async () => {
+  await send('write 40011=77');
+  await run_for(150);
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press('Home');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) === 0);
+  await page.fill('#condition', 'VW20 = 77');
+  await page.press('#condition', 'Enter');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 1500);
+  assert.equal(await page.textContent('.tag'), 'past');
+  assert.equal(await page.locator('.notice').count(), 0);
+});
 });
 
 test('an interrupt is gone to; where there is none the page says so and stays', async () => {

@@ -5,7 +5,7 @@ import { command, move, take_over } from '../session';
 import { notice, state } from '../state';
 import { duration_text, moment_word } from '../words';
 import { bring_into_view, show_found, spans_between } from './view';
-import type { Answers, Span, Stopped, Stops } from '../protocol';
+import type { Answers, Reply, Span, Stopped, Stops } from '../protocol';
 
 function has_trouble(span: Span): boolean {
   return span.error !== undefined || (span.errors ?? 0) > 0;
@@ -133,6 +133,14 @@ export async function find_longest_scan(): Promise<void> {
 
 const kLongestRun = 10e9;  // ns that are run for a condition when there is no past after this moment
 
+/** Runs to a moment or a stop point: an answer to a master's request, at which `continue` ends, is none. */
+async function run_past_answers(end_ns: number): Promise<Reply<Stopped>> {
+  for (;;) {
+    const run = await move<Stopped>(`continue ${moment_word(end_ns - (state.past?.now_ns ?? end_ns))}`);
+    if (run.json?.stopped !== 'answer' || (state.past?.now_ns ?? end_ns) >= end_ns) return run;
+  }
+}
+
 /** Goes to the next moment at which a condition comes to hold: through the past, or by running on. */
 export async function find_condition(condition: string): Promise<void> {
   const past = state.past;
@@ -140,8 +148,8 @@ export async function find_condition(condition: string): Promise<void> {
   const set = await command<Stops>(`break ${condition}; break`);
   if (set.error !== undefined || !set.json) return;
   const number = Math.max(...set.json.stops.map((one) => one.number));
-  const length = past.in_the_past ? past.newest_ns - past.now_ns : kLongestRun;
-  const run = await move<Stopped>(`continue ${moment_word(length)}`);
+  const length = past.in_the_past ? past.newest_ns - past.now_ns : kLongestRun, end_ns = past.now_ns + length;
+  const run = await run_past_answers(end_ns);
   await command(`delete ${number}`);
   if (run.json?.stopped === 'stop point') return;
   if (past.in_the_past) await move(`at ${moment_word(past.now_ns)}`);
