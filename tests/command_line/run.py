@@ -2514,6 +2514,7 @@ class JsonPage(Case):
                 "NETWORK 9\nLD I0.5\nR S0.0, 2\nNETWORK 10\nLD I0.6\nMOVB 0, SB0\nS M3.0, 1\nNETWORK 11\nLD M3.0\n= Q0.2\nMEND\n")
     TOLD_TWICE = "LD I0.0\nA I0.1\n= M0.0\nLD M0.0\n= M0.1\nLD M0.0\n= M0.2\nLD M0.1\nA M0.2\n= Q0.0\nMEND\n"
     CALLS_ITSELF = "LD SM0.1\nATCH 0, 10\nENI\nLD SM0.0\nCALL 1\nMEND\nSBR 1\nLD I0.0\nCALL 1\nRET\nINT 0\nRETI\n"
+    CALLS_NOTHING = "LD SM0.0\nMOVB 1, VB0\nMEND\nSBR 1\nLD SM0.0\nMOVB 1, VB9\nRET\n"
     WIDE = "NETWORK 1 // as long as it may be\nLD I0.0 // start\n" + "A M0.0\n" * 12 + "= Q0.0\nMOVB 1, VB0\nMEND\n"
 
     @staticmethod
@@ -2556,7 +2557,8 @@ class JsonPage(Case):
                     ["inspect", *Inspect.PUMP], ["inspect", SLAVE, "xref"], ["inspect", SLAVE, "xref", "VW4"], ["inspect", SLAVE, "calls"],
                     ["inspect", self.program("LD SM0.1\nDISI\nMEND\n", "disabled.stl"), "calls"],
                     ["inspect", self.program("LD I0.0\nLD I0.1\nCTU C5, 12\nTON T37, 5\nMOVB 16#81, SMB31\nMEND\n", "eeprom.stl"), "map"],
-                    ["inspect", *Inspect.PUMP, "map"], ["inspect", EXPORTS / "races.awl", "races"], ["inspect", self.program(self.CALLS_ITSELF, "calls_itself.stl"), "races"], ["inspect", EXPORTS / "races.awl", "shared"], ["inspect", SLAVE, "bounds"], ["inspect", *Inspect.PUMP, "document"],
+                    ["inspect", *Inspect.PUMP, "map"], ["inspect", EXPORTS / "races.awl", "races"], ["inspect", self.program(self.CALLS_ITSELF, "calls_itself.stl"), "races"],
+                    ["inspect", self.program(self.CALLS_NOTHING, "calls_nothing.stl"), "map"], ["inspect", EXPORTS / "races.awl", "shared"], ["inspect", SLAVE, "bounds"], ["inspect", *Inspect.PUMP, "document"],
                     ["inspect", self.program("LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nMEND\nINT 0\nLD SM0.0\nFOR VW0, 1, AC0\nNEXT\nRETI\n", "loop.stl"), "bounds"], ["inspect", SOURCE / "tests/programs/libraries/slave.awl", "map"],
                     ["inspect", self.program(self.WIDE, "wide.stl"), "ladder"],
                     ["import", "--compare", self.program(Files.DRAWING.replace("LD", "LDN"), "drawn.txt")], ["run", faulty, *plant],
