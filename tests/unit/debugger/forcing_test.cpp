@@ -87,7 +87,7 @@ TEST(ForceCommand, ConditionsOfBreakpointsAreAboutWhatTheProgramFinds) {
 
 TEST(ForceCommand, WhySaysWhatOfItAndOfItsContactsIsForced) {
   AtPrompt session(kCopy);
-  EXPECT_TRUE(has(session("force I0.0=0; input I0.0=1; scan 3; why Q0.0"), "I0.0 is forced"));
+  EXPECT_TRUE(has(session("force I0.0=0; input I0.0=1; scan 3; why Q0.0"), "I0.0 was forced"));
   EXPECT_TRUE(has(session("force Q0.0=1; scan 2; why Q0.0"), "Q0.0 is forced to 1"));
 }
 

@@ -75,7 +75,7 @@ TEST(WhyNot, AContactBehindLrdOrLppIsNamedAndNotTheOneOfTheBranchBefore) {
 
 TEST(WhyNot, TwoContactsOfTheSameBitThatExcludeEachOtherAreNoWay) {
   AtPrompt session(on_cpu224("LD I1.1\nAN I1.1\n= Q0.7\nMEND\n"));
-  EXPECT_TRUE(has(session("scan 3; why not Q0.7"), "  no contact can do that: it never has power flow there\n"));
+  EXPECT_TRUE(has(session("scan 3; why not Q0.7"), "  it can never be on: I1.1 (line 1) and not I1.1 (line 2) exclude each other\n"));
 }
 
 TEST(WhyNot, OfACompoundConditionOnlyWhatIsNotAsItHasToBeIsAsked) {

@@ -62,6 +62,16 @@ TEST(XrefView, AConstantIsShownAsItIsWrittenInEachPlace) {
   EXPECT_NE(text.find("  32                          MAIN    1   test.stl:3"), std::string::npos) << text;
 }
 
+TEST(XrefView, AnAddressWithinABlockIsUsedThoughNoInstructionNamesIt) {
+  constexpr std::string_view kProgram = "LD SM0.0\nBMB VB0, VB60, 20\nMOVD &VB200, AC1\nMOVW 1, *AC1\nINCB VB60\nMEND\n";
+  EXPECT_EQ(xref_text(inspected(kProgram, {"VB64"})),
+            "VB64; never read\n"
+            "  may write  VB60 to VB79     MAIN    1   test.stl:2              BMB VB0, VB60, 20\n");
+  EXPECT_NE(xref_text(inspected(kProgram, {"VB201"})).find("MOVW 1, *AC1"), std::string::npos);
+  EXPECT_EQ(xref_json(inspected(kProgram, {"VB64"}))["not_used"].size(), 0U);
+  EXPECT_EQ(xref_json(inspected(kProgram, {"VB80"}))["not_used"].size(), 1U);
+}
+
 TEST(XrefView, RcvTouchesTheMessageBytesOfItsOwnPort) {
   const std::string text = xref_text(inspected("LD SM0.0\nRCV VB0, 1\nMEND\n", {}, *find_cpu("226")));
   EXPECT_NE(text.find("SMB186"), std::string::npos) << text;

@@ -191,6 +191,29 @@ std::vector<std::string> neighbours(const CrossReference& reference, const Bits&
   return names;
 }
 
+/// Memory that no instruction names, but which is part of a block, or of what a pointer may reach.
+ReferenceEntry entry_within(const Facts& facts, const Bits& bits) {
+  ReferenceEntry entry{.bits = bits, .routine = {}, .parts = {bits}, .uses = {}, .reached = {}, .symbols = {}};
+  for (std::uint32_t op = 0; op < facts.effects.size(); ++op)
+    for (MemoryAccess access : facts.effects[op]) {
+      access.bits = as_named(access.bits);
+      if (access.bits.overlaps(bits) && !is_anywhere(facts.program, access)) entry.reached.push_back({op, access});
+    }
+  return entry;
+}
+
+/// With an entry for each address that is asked for, where anything reaches it.
+CrossReference reference_of(const Inspection& inspection) {
+  CrossReference reference = cross_reference(inspection.facts);
+  for (const Selection::Memory& asked : inspection.selection.memory) {
+    const auto overlaps = [&](const ReferenceEntry& entry) { return entry.bits.overlaps(asked.bits); };
+    if (std::ranges::any_of(reference.entries, overlaps)) continue;
+    ReferenceEntry entry = entry_within(inspection.facts, asked.bits);
+    if (!entry.reached.empty()) reference.entries.push_back(std::move(entry));
+  }
+  return reference;
+}
+
 std::vector<Selection::Memory> not_used(const Inspection& inspection, const CrossReference& reference) {
   std::vector<Selection::Memory> all;
   for (const Selection::Memory& asked : inspection.selection.memory)
@@ -252,7 +275,7 @@ ordered_json constant_json(const Inspection& inspection, const Wanted& wanted, c
 }  // namespace
 
 std::string xref_text(const Inspection& inspection) {
-  const CrossReference reference = cross_reference(inspection.facts);
+  const CrossReference reference = reference_of(inspection);
   const Wanted wanted(inspection.selection);
   std::string text;
   for (const ReferenceEntry& entry : reference.entries) text += entry_text(inspection, wanted, entry);
@@ -269,7 +292,7 @@ std::string xref_text(const Inspection& inspection) {
 }
 
 ordered_json xref_json(const Inspection& inspection) {
-  const CrossReference reference = cross_reference(inspection.facts);
+  const CrossReference reference = reference_of(inspection);
   const Wanted wanted(inspection.selection);
   ordered_json json;
   for (const char* key : {"entries", "pointers", "constants", "not_used"}) json[key] = ordered_json::array();
