@@ -388,7 +388,7 @@ class RaceFinder {
   bool begins_run(std::uint32_t number) const {
     const Op& now = facts_.program.ops[number];
     const auto& nodes = facts_.flow.nodes;
-    const bool is_always_on = now.is_contact && nodes[number].powered && nodes[number + 1].powered;
+    const bool is_always_on = now.is_contact && nodes[number].powered && number + 1 < nodes.size() && nodes[number + 1].powered;
     return (now.is_contact && !is_always_on) || is_unread(now) || now.instruction->structure != Structure::None ||
            now.instruction->effect == Effect::ConditionalEnd;
   }

@@ -7,7 +7,7 @@
 namespace s7200 {
 namespace {
 
-constexpr Areas kShared =
+constexpr Areas kSharedAreas =
     set_of(Area::V) | set_of(Area::M) | set_of(Area::S) | set_of(Area::Q) | set_of(Area::T) | set_of(Area::C);
 
 /// By routine: whether `root` executes it, itself or through calls.
@@ -51,7 +51,7 @@ std::vector<SharedMemory> shared_memory(const Facts& facts, const Calls& calls, 
 
   std::vector<SharedMemory> all;
   for (std::size_t entry = 0; entry < reference.entries.size(); ++entry) {
-    if (!contains(kShared, area_of(reference.entries[entry].bits))) continue;
+    if (!contains(kSharedAreas, area_of(reference.entries[entry].bits))) continue;
     SharedMemory shared{.entry = entry, .sides = {}};
     for (std::size_t i = 0; i < roots.size(); ++i) {
       SharedMemory::Side side = uses_of(facts.flow, reference.entries[entry], roots[i], executed[i]);

@@ -241,9 +241,9 @@ std::string TraceReasons::contacts_text(const std::vector<InstructionRecord>& co
   return text;
 }
 
-std::string TraceReasons::power_behind(const std::vector<InstructionRecord>& contacts) {
+std::string TraceReasons::power_behind(const std::vector<InstructionRecord>& contacts) const {
   std::string power;
-  for (const InstructionRecord& contact : contacts) power += contact.top ? '1' : '0';
+  for (const InstructionRecord& contact : contacts_of_top(program_, contacts)) power += contact.top ? '1' : '0';
   return power;
 }
 

@@ -191,7 +191,7 @@ class TraceReasons {
   std::string line_of(std::uint32_t op) const;
   std::string text_of(const Decision& decision) const;
   std::string contacts_text(const std::vector<InstructionRecord>& contacts) const;
-  static std::string power_behind(const std::vector<InstructionRecord>& contacts);
+  std::string power_behind(const std::vector<InstructionRecord>& contacts) const;
   Unanswered unanswered(const Frame& frame, const std::optional<Cause>& cause) const;
   std::optional<Unanswered> taken(const Reception& reception, Time since) const;
   bool is_own(const InstructionRecord& contact) const;

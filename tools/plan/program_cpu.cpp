@@ -44,7 +44,8 @@ ProgramCpu read_settings(const std::string& file, const FileSource& files) {
 /// Of one that is not modelled, or of the CN series.
 std::string note_on_head(const std::string& in_head, const std::string& file, const CpuModel& taken) {
   if (in_head.empty()) return {};
-  if (in_head.ends_with(" CN") && in_head.starts_with(taken.name))
+  constexpr std::string_view kSeries = " CN";
+  if (in_head.ends_with(kSeries) && taken.name.starts_with(in_head.substr(0, in_head.size() - kSeries.size())))
     return fmt::format("{} names a CPU {} in its head, which is taken for a CPU {}", file, in_head, taken.name);
   return fmt::format("{} names a CPU {} in its head, which is not modelled; CPU {} is assumed, --cpu names another", file,
                      stl::shortened(in_head), taken.name);

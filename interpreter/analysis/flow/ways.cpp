@@ -136,7 +136,7 @@ RungLogic Ways::read_rung(std::uint32_t first, std::uint32_t op) const {
 const RungLogic& Ways::rung_of(std::uint32_t op) const {
   if (const auto known = rungs_.find(op); known != rungs_.end()) return known->second;
   const Routine& routine = facts_.flow.routine_of(op);
-  std::uint32_t first = facts_.flow.nodes[op].network;
+  std::uint32_t first = present_.begins ? present_.begins(op) : facts_.flow.nodes[op].network;
   RungLogic rung = read_rung(first, op);
   while (depends_on_front(rung) && first > routine.first) {
     first = facts_.flow.nodes[first - 1].network;

@@ -35,6 +35,8 @@ class Ways {
   struct Present {
     std::function<bool(std::uint32_t op)> holds;     ///< whether a condition with `on` is fulfilled
     std::function<bool(std::uint32_t op)> executed;  ///< whether it is known that an op is executed: nothing keeps it away
+    /// From where on the logic of an op is read; null: from the beginning of its network.
+    std::function<std::uint32_t(std::uint32_t op)> begins = {};
   };
 
   /// `facts` must live as long as this.

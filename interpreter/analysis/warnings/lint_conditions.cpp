@@ -11,6 +11,7 @@
 #include "interpreter/analysis/flow/ways.hpp"
 #include "interpreter/analysis/warnings/lint.hpp"
 #include "interpreter/analysis/warnings/lint_ops.hpp"
+#include "interpreter/base/text/among.hpp"
 #include "interpreter/model/contact_form.hpp"
 #include "interpreter/program/checking/warnings.hpp"
 
@@ -20,19 +21,55 @@ using namespace lint;
 
 namespace {
 
-Ways ways_at_any_time(const Facts& facts) {
-  return Ways(facts, {[](std::uint32_t) { return false; }, [](std::uint32_t) { return true; }});
+/// A text without networks has all its rungs in one; each is looked at by itself.
+class Rungs {
+ public:
+  explicit Rungs(const Facts& facts) {
+    const auto count = static_cast<std::uint32_t>(facts.program.ops.size());
+    begins_.resize(count);
+    for (std::uint32_t first = 0, end = 0; first < count; first = end) {
+      for (end = first + 1; end < count && facts.flow.nodes[end].network == facts.flow.nodes[first].network;) ++end;
+      split(facts.program, first, end);
+    }
+  }
+
+  const std::vector<Stretch>& all() const { return all_; }
+  std::uint32_t first_of(std::uint32_t op) const { return begins_[op]; }
+
+ private:
+  /// A rung begins with a load below which nothing is used any more up to the end of the network.
+  void split(const Program& program, std::uint32_t first, std::uint32_t end) {
+    constexpr int kLevels = 9;  // LDS may use each
+    std::uint32_t to = end;
+    int used = 0;  // levels of the stack, by what comes behind
+    for (std::uint32_t op = end; op-- > first;) {
+      const auto& stack = program.ops[op].instruction->rung.stack;
+      const int needs = program.ops[op].instruction->mnemonic == "LDS" ? kLevels : stack.needs;
+      used = std::max(needs, used - stack.change);
+      if (op != first && (used != 0 || stack.needs != 0 || stack.change <= 0)) continue;
+      std::fill(begins_.begin() + op, begins_.begin() + to, op);
+      all_.push_back({op, to});
+      to = op;
+    }
+  }
+
+  std::vector<Stretch> all_{};  // of a network the last one first
+  std::vector<std::uint32_t> begins_{};  // by op
+};
+
+Ways ways_at_any_time(const Facts& facts, const Rungs& rungs) {
+  return Ways(facts, {[](std::uint32_t) { return false; }, [](std::uint32_t) { return true; },
+                      [&rungs](std::uint32_t op) { return rungs.first_of(op); }});
 }
 
-/// The networks, from the first op until before the end, in which two contacts may exclude each other.
-std::vector<Stretch> suspicious_networks(const Facts& facts) {
+/// The rungs in which two contacts may exclude each other. A very long one is left out: its ways are too many.
+std::vector<Stretch> suspicious_rungs(const Facts& facts, const Rungs& rungs) {
+  constexpr std::uint32_t kLongest = 200;  // instructions
   const Exclusions exclusions(facts);
   std::vector<Stretch> found;
-  const auto count = static_cast<std::uint32_t>(facts.program.ops.size());
-  for (std::uint32_t first = 0, end = 0; first < count; first = end) {
-    for (end = first + 1; end < count && facts.flow.nodes[end].network == facts.flow.nodes[first].network;) ++end;
-    if (exclusions.may_be_within(first, end)) found.push_back({first, end});
-  }
+  for (const Stretch& rung : rungs.all())
+    if (rung.to - rung.from <= kLongest && exclusions.may_be_within(rung.from, rung.to)) found.push_back(rung);
+  std::ranges::sort(found, {}, &Stretch::from);
   return found;
 }
 
@@ -67,6 +104,21 @@ bool is_looked_at(const Facts& facts, std::uint32_t counter) {
   });
 }
 
+bool compares(const Program& program, std::uint32_t op) {
+  return contact_form(*program.ops[op].instruction).kind == ContactForm::Kind::Numbers;
+}
+
+/// Whether only its box, and R, write the value of a counter: then it goes up one by one.
+bool counts_one_by_one(const Facts& facts, std::uint32_t box) {
+  const Bits value{(image::kC + 2 * std::uint64_t{counter_of(facts.program.ops[box])}) * 8, 16};
+  for (std::uint32_t op = 0; op < facts.effects.size(); ++op) {
+    if (op == box || is_among(facts.program.ops[op].instruction->mnemonic, {"R", "RI"})) continue;
+    for (const MemoryAccess& access : facts.effects[op])
+      if (access.writes() && access.bits.overlaps(value)) return false;
+  }
+  return true;
+}
+
 /// The lowest value from which on a comparison is closed: 20 of `LDW>= C5, 20`, and of `LDW= C5, 20` as it counts one by
 /// one.
 std::optional<std::int64_t> reached_at(const Program& program, std::uint32_t op, std::uint32_t counter) {
@@ -96,12 +148,13 @@ std::optional<std::int64_t> reset_at(const Program& program, const Ways& ways, s
 void find_never_true(const Facts& facts, stl::Diagnostics& diagnostics) {
   const Program& program = facts.program;
   if (has_unread(program)) return;
-  const std::vector<Stretch> networks = suspicious_networks(facts);
-  if (networks.empty()) return;
-  const Ways ways = ways_at_any_time(facts);
+  const Rungs rungs(facts);
+  const std::vector<Stretch> suspicious = suspicious_rungs(facts, rungs);
+  if (suspicious.empty()) return;
+  const Ways ways = ways_at_any_time(facts, rungs);
   std::set<std::uint32_t> told;  // the later one of both
-  for (const Stretch& network : networks)
-    for (std::uint32_t op = network.from; op < network.to; ++op)
+  for (const Stretch& rung : suspicious)
+    for (std::uint32_t op = rung.from; op < rung.to; ++op)
       for (std::size_t level = 0; level < ways.rung_of(op).inputs.size(); ++level) {
         const bool never = ways.input(op, level, true).empty();
         const auto exclusion = ways.take_exclusion();
@@ -110,14 +163,17 @@ void find_never_true(const Facts& facts, stl::Diagnostics& diagnostics) {
           continue;
         diagnostics.push_back(warn(Warning::NeverTrue, place(program, exclusion->second.op),
                                    exclusion_text(program, *exclusion) + ": this condition is never true",
-                                   "compare with O in place of A if one of them is enough, or take out the rung"));
+                                   compares(program, exclusion->first.op)
+                                       ? "compare with O in place of A if one of them is enough, or take out the rung"
+                                       : "change one of the two contacts, or take out the rung"));
       }
 }
 
 void find_unreached_presets(const Facts& facts, stl::Diagnostics& diagnostics) {
   const Program& program = facts.program;
   if (has_unread(program) || std::ranges::none_of(program.ops, counts_up)) return;
-  const Ways ways = ways_at_any_time(facts);
+  const Rungs rungs(facts);
+  const Ways ways = ways_at_any_time(facts, rungs);
   for (std::uint32_t box = 0; box < program.ops.size(); ++box) {
     const Op& op = program.ops[box];
     if (!counts_up(op) || op.in_segment) continue;
@@ -128,7 +184,7 @@ void find_unreached_presets(const Facts& facts, stl::Diagnostics& diagnostics) {
     const auto preset = constant_value(program, op[1], Width::Word);
     if (!preset || std::ranges::count_if(program.ops, is_of_counter) != 1 || !is_looked_at(facts, counter_of(op))) continue;
     const auto reset = reset_at(program, ways, box);
-    if (!reset || *reset >= *preset) continue;
+    if (!reset || *reset >= *preset || !counts_one_by_one(facts, box)) continue;
     diagnostics.push_back(warn(Warning::UnreachedPreset, place(program, box),
                                fmt::format("{} is reset when it has counted to {} and never comes to its preset of {}: its "
                                            "bit is never on",

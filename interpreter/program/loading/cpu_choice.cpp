@@ -86,8 +86,10 @@ std::optional<NamedCpu> cpu_at(std::string_view text, std::string_view& rest) {
   for (const std::string_view suffix : {"XP", "XM"})
     if (take_suffix(rest, suffix)) cpu.name += suffix;
   cpu.is_of_cn_series = take_suffix(rest, "CN");
+  if (!rest.empty() && stl::is_digit(rest.front())) return {};  // a date, an order number
   const std::size_t tail = std::min(rest.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-"), rest.size());
   cpu.name += rest.substr(0, tail);
+  cpu.name.erase(cpu.name.find_last_not_of('-') + 1);
   rest.remove_prefix(tail);
   const bool first_release = take_release(rest) == 1;
   cpu.model = first_release ? find_cpu(cpu.name + "r1") : nullptr;

@@ -872,6 +872,14 @@ TEST(Why, WhatKeepsTheWriterOfAnAddressAwayIsNamed) {
   EXPECT_TRUE(has(session("why Q0.1"), ": CRET in line 17 ended the routine in front of it at "));
 }
 
+TEST(Why, AForWithoutAPassIsNamedAndNoCallThatWasMade) {
+  AtPrompt session(
+      "LD SM0.0\nCALL 1\nMEND\nSBR 1\nLD SM0.0\nFOR VW0, 5, 1\nLD SM0.0\nMOVB 7, VB100\nNEXT\nLD I0.0\nCRET\nRET\n");
+  session("continue 100ms");
+  const std::string text = session("why VB100");
+  EXPECT_TRUE(has(text, "could, which was not executed lately: FOR VW0, 5, 1 in line 6 ran no pass\n")) << text;
+}
+
 TEST(Why, AnEndInFrontOfACallIsNamedThoughItHadNoPowerBefore) {
   AtPrompt session(kKeepsAway);
   session("scan 3; input I0.2=1; scan 3");

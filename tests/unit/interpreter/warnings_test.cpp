@@ -189,6 +189,18 @@ TEST(NeverTrue, IsNoneWhereBothMayBe) {
   EXPECT_EQ(of_cpu224("LDN SM0.0\n= Q0.0\nLD M0.0\nAN M0.0\n= M0.7\nMEND\n"), "") << "it makes a 0";
 }
 
+TEST(NeverTrue, RungsOfATextWithoutNetworksAreLookedAtOneByOne) {
+  std::string text;
+  for (int i = 0; i < 2000; ++i) text += fmt::format("LD{} M{}.0\nA I0.{}\nS V{}.0, 1\n", i % 2 == 0 ? "" : "N", i / 2 % 32, i % 8, i);
+  EXPECT_EQ(of_cpu224(text + "LD I0.0\nAN I0.0\nA I0.1\n= Q0.0\nMEND\n"), "6002 never-true\n") << "and that at once";
+}
+
+TEST(UnreachedPreset, IsNoneOfACounterThatIsSetToMore) {
+  const std::string counter = "LD I0.2\nLD I0.3\nLDW= C7, 5\nCTUD C7, 10\nLD C7\n= Q0.2\n";
+  EXPECT_NE(of_cpu224(counter + "MEND\n").find("unreached-preset"), std::string::npos);
+  EXPECT_EQ(of_cpu224(counter + "LD SM0.1\nMOVW 25, C7\nMEND\n").find("unreached-preset"), std::string::npos);
+}
+
 TEST(UnreachedPreset, IsThatOfACounterThatAComparisonResetsBelowIt) {
   EXPECT_EQ(warnings_of("LD I0.0\nLDW>= C5, 20\nO I0.1\nCTU C5, 24\nLD C5\n= Q0.0\nMEND\n"), "4 unreached-preset\n");
   EXPECT_EQ(warnings_of("LD I0.0\nLDW= C5, 20\nCTU C5, 24\nLD C5\n= Q0.0\nMEND\n"), "3 unreached-preset\n");

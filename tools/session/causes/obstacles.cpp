@@ -37,6 +37,14 @@ bool is_bits_of_counter(const Bits& bit) { return bit.first / 8 - image::kCBits 
 
 Bits bit_at(const Operand& operand) { return {std::uint64_t{operand.at} * 8 + operand.bit, 1}; }
 
+/// The level that MOVB, MOVW or MOVD of a constant gives a bit; nothing of anything else.
+std::optional<bool> moved_constant(const Program& program, const Op& op, const Bits& bit) {
+  const bool moves = is_among(op.instruction->mnemonic, {"MOVB", "MOVW", "MOVD"}) && !op[1].pointer;
+  if (!moves || op[0].pointer || op[0].unread() || op[0].at < image::kConstants || bit.count != 1) return {};
+  const std::uint64_t offset = bit.first - std::uint64_t{op[1].at} * 8, byte = op[0].at - image::kConstants + offset / 8;
+  return (program.constants[static_cast<std::size_t>(byte)] >> offset % 8 & 1) != 0;
+}
+
 }  // namespace
 
 Obstacles::Obstacles(const Cpu& cpu, const Facts& facts, const LatelyExecuted& lately, Time fresh_since)
@@ -127,6 +135,7 @@ void Obstacles::note_writer(std::uint32_t number, const Bits& bits, bool wanted,
     if (leaves != wanted) writers.deciding.push_back(number);
     return;
   }
+  if (const auto moved = moved_constant(program(), by, bits); moved && *moved != wanted) return;
   writers.others.push_back(number);
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "interpreter/trace/text/statement_text.hpp"
 #include "tools/views/state/machine_text.hpp"
 
@@ -44,6 +46,8 @@ void RungReader::instruction(const InstructionRecord& record) {
     without_power_[record.op] = {record.at, reasons.contacts()};
   else if (is_jump(op) || op.instruction->effect == Effect::ConditionalEnd)
     taken_[record.op] = {record.at, reasons.contacts()};
+  else if (op.instruction->structure == Structure::For || op.instruction->structure == Structure::Call)
+    entered_.insert(record.op);
   reasons.note(record);
 }
 
@@ -66,7 +70,8 @@ std::string RungReader::what_kept(std::uint32_t op, std::size_t calls) const {
   if (was_passed && (!way || way->second.at < passed->second.at))
     return fmt::format("had no power flow {}", at_text(passed->second));
   const std::string when = was_passed ? "after " + moment_text(passed->second.at) : "lately";
-  const std::string by = way ? text_of(*way) : what_calls(head_[op], calls);
+  std::string by = way ? text_of(*way) : loop_without_pass(op);
+  if (by.empty()) by = what_calls(head_[op], calls);
   return fmt::format("was not executed {}{}", when, by.empty() ? "" : ": " + by);
 }
 
@@ -77,12 +82,25 @@ std::string RungReader::text_of(const Way& way) const {
                      is_jump(program_.ops[way.first]) ? "jumped over" : ended, at_text(way.second));
 }
 
+/// Of the loops around an op the outermost one that began.
+std::string RungReader::loop_without_pass(std::uint32_t op) const {
+  for (const std::uint32_t loop : entered_)
+    if (program_.ops[loop].instruction->structure == Structure::For && loop < op && op < program_.ops[loop].target)
+      return fmt::format("{} ran no pass", named_without_comment(loop, program_));
+  return {};
+}
+
+/// Empty if one of its CALLs was made: then something else has kept its instruction from being executed.
 std::string RungReader::what_calls(std::uint32_t head, std::size_t calls) const {
   const Op& routine = program_.ops[head];
   if (routine.instruction->structure == Structure::InterruptHead) return fmt::format("INT {} did not run", routine[0].at);
   if (routine.instruction->structure != Structure::SubroutineHead || calls == kMostCallsFollowed) return {};
+  const auto calls_it = [&](std::uint32_t op) {
+    return program_.ops[op].instruction->structure == Structure::Call && program_.ops[op].target == head;
+  };
+  if (std::ranges::any_of(entered_, calls_it)) return {};
   for (std::uint32_t op = 0; op < program_.ops.size(); ++op)
-    if (program_.ops[op].instruction->structure == Structure::Call && program_.ops[op].target == head)
+    if (calls_it(op))
       return fmt::format("{} {}", named_without_comment(op, program_), what_kept(op, calls + 1));
   return fmt::format("nothing calls SBR {}", routine[0].at);
 }

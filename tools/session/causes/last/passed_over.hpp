@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,7 +27,7 @@ class RungReader final : public Reader {
   void instruction(const InstructionRecord& record) override;
 
   /// `had no power flow at 9.5 ms (LD I0.0: I0.0=0)`, or that it was not executed lately and what has kept it from that:
-  /// a jump over it, an end in front of it, a CALL of its routine that was not made.
+  /// a jump over it, an end in front of it, a FOR without a pass, a CALL of its routine that was not made.
   std::string what_kept(std::uint32_t op) const { return what_kept(op, 0); }
 
   TraceReasons reasons;
@@ -45,11 +46,13 @@ class RungReader final : public Reader {
   std::string text_of(const Way& way) const;
   std::string what_calls(std::uint32_t head, std::size_t calls) const;
   bool leads_past(std::uint32_t by, std::uint32_t op) const;
+  std::string loop_without_pass(std::uint32_t op) const;
 
   const Program& program_;
   std::vector<std::uint32_t> head_;                  // by op
   std::map<std::uint32_t, Passed> without_power_{};  // by op, the last time
   std::map<std::uint32_t, Passed> taken_{};          // by op of a jump or an end, the last time
+  std::set<std::uint32_t> entered_{};                // ops of FOR and CALL that had power
 };
 
 }  // namespace s7200::tools
