@@ -49,6 +49,7 @@ needed_for_page_file=(
   clang++-19:clang-19
   wasm-ld-19:lld-19
   wasm-opt:binaryen
+  zopfli:zopfli
   llvm-ar-19:llvm-19
   /usr/include/wasm32-wasi/stdio.h:wasi-libc
   /usr/lib/llvm-19/lib/wasm32-wasi/libc++.a:libc++-19-dev-wasm32

@@ -31,7 +31,7 @@
 namespace s7200 {
 
 /// The steps into which a program is unfolded, with subroutines where they are called: 24 MB. More calls are not followed.
-inline constexpr std::size_t kMostStepsOfRaces = 200'000;
+inline constexpr std::size_t kMostStepsOfRaces = 1'000'000;
 
 struct Race {
   enum class Kind : std::uint8_t {

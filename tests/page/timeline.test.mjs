@@ -272,6 +272,7 @@ test('what is refused is said in few words, until the next is not; what is sent 
   await page.waitForSelector('.notice.error:has-text("The last frame is still under way or waiting for its answer: Run on first")');
   await run_for(150);
   await page.waitForSelector('.exchanges tr.waits', { state: 'detached' });
+});
 
 test('a condition is searched for beyond the answers on the way', async () => {
   await send('write 40011=77');
@@ -284,7 +285,9 @@ test('a condition is searched for beyond the answers on the way', async () => {
   await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 1500);
   assert.equal(await page.textContent('.tag'), 'past');
   assert.equal(await page.locator('.notice').count(), 0);
-});
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press('End');
+  await page.waitForSelector('.tag.now');
 });
 
 test('an interrupt is gone to; where there is none the page says so and stays', async () => {
