@@ -24,10 +24,14 @@ const shown = (page) => page.evaluate(() => ({
   tag: document.querySelector('.tag').textContent, stops: document.querySelectorAll('.margin.stop').length,
   forced: document.querySelectorAll('.bulb.forced').length, on: document.querySelectorAll('.switch.on').length,
 }));
+/** Either may be the one that comes later. */
 async function same(one, other) {
-  const wanted = await shown(one);
-  for (let i = 0; i < 100 && JSON.stringify(await shown(other)) !== JSON.stringify(wanted); ++i) await other.waitForTimeout(50);
-  assert.deepEqual(await shown(other), wanted);
+  let [wanted, there] = [await shown(one), await shown(other)];
+  for (let i = 0; i < 100 && JSON.stringify(there) !== JSON.stringify(wanted); ++i) {
+    await other.waitForTimeout(50);
+    [wanted, there] = [await shown(one), await shown(other)];
+  }
+  assert.deepEqual(there, wanted);
 }
 
 test('two windows show the same, one that is loaded anew too, and one that is closed is not missed', async () => {
