@@ -13,6 +13,7 @@
 #include "interpreter/analysis/effects/value_boxes.hpp"
 #include "interpreter/analysis/flow/first_scan.hpp"
 #include "interpreter/analysis/flow/kept_away.hpp"
+#include "interpreter/analysis/shared_memory.hpp"
 #include "interpreter/program/loading/unread.hpp"
 
 namespace s7200 {
@@ -24,9 +25,7 @@ constexpr std::uint64_t kMostBits = kBitsOfByte * 255;          ///< of a block 
 constexpr std::uint64_t kBitsOfFrame = std::uint64_t{1} << 40;  ///< more than the image has
 
 bool is_shared(const Bits& bits) {
-  constexpr Areas kShared =
-      set_of(Area::V) | set_of(Area::M) | set_of(Area::S) | set_of(Area::Q) | set_of(Area::T) | set_of(Area::C);
-  return bits.first < kBitsOfFrame && contains(kShared, area_of(as_named(bits)));
+  return bits.first < kBitsOfFrame && contains(kSharedAreas, area_of(as_named(bits)));
 }
 
 Bits overlap_of(const Bits& a, const Bits& b) {

@@ -7,9 +7,6 @@
 namespace s7200 {
 namespace {
 
-constexpr Areas kSharedAreas =
-    set_of(Area::V) | set_of(Area::M) | set_of(Area::S) | set_of(Area::Q) | set_of(Area::T) | set_of(Area::C);
-
 /// By routine: whether `root` executes it, itself or through calls.
 std::vector<bool> executed_by(const Calls& calls, std::uint32_t root) {
   std::vector<bool> executed(calls.nodes.size());

@@ -10,6 +10,10 @@
 
 namespace s7200 {
 
+/// The other areas are the CPU's and the field's too, and each side has its own accumulators and local memory.
+inline constexpr Areas kSharedAreas =
+    set_of(Area::V) | set_of(Area::M) | set_of(Area::S) | set_of(Area::Q) | set_of(Area::T) | set_of(Area::C);
+
 struct SharedMemory {
   /// The uses by the main program, or by one interrupt routine, with all that it calls.
   struct Side {
@@ -21,8 +25,7 @@ struct SharedMemory {
   std::vector<Side> sides;  ///< two or more, the main program first; at least one writes
 };
 
-/// Of V, M, S, Q, T and C memory, by address; what pointers may reach is left out. The other areas are the CPU's and the
-/// field's too, and each side has its own accumulators and local memory.
+/// Of kSharedAreas, by address; what pointers may reach is left out.
 std::vector<SharedMemory> shared_memory(const Facts& facts, const Calls& calls, const CrossReference& reference);
 
 }  // namespace s7200

@@ -9,7 +9,6 @@
 #include "interpreter/model/errors.hpp"
 #include "interpreter/trace/text/statement_text.hpp"
 #include "tools/session/causes/expression.hpp"
-#include "tools/session/causes/last/passed_over.hpp"
 #include "tools/session/causes/memory_cause.hpp"
 #include "tools/views/state/machine_text.hpp"
 
@@ -59,7 +58,7 @@ std::string_view way_text(const Instruction& instruction, bool value) {
 
 EffectTree::EffectTree(const Program& program, const RunRecord& known, const RunRecord& without,
                        const RunDifferences& differences, const std::vector<Bits>& changed)
-    : program_(program), known_(known), without_(without), differences_(differences), routine_(routine_heads(program)) {
+    : program_(program), known_(known), without_(without), differences_(differences), flow_(control_flow(program)) {
   nodes_.push_back({.bits = changed.front()});
   for (const Bits& place : changed)
     for (std::uint64_t bit = place.first; bit < place.end(); ++bit) {
@@ -200,8 +199,8 @@ std::optional<std::size_t> EffectTree::way_to(std::uint32_t op, Time at) const {
     const Effect& effect = nodes_[node].effect;
     if (effect.kind != "way" || !nodes_[node].parent || !differences_.differ(decision_key(*effect.op), at)) continue;
     const Op& decides = program_.ops[*effect.op];
-    const bool calls = decides.instruction->structure == Structure::Call && decides.target == routine_[op];
-    const bool before = routine_[*effect.op] == routine_[op] && *effect.op < op;
+    const bool calls = decides.instruction->structure == Structure::Call && decides.target == flow_.routine_of(op).first;
+    const bool before = flow_.nodes[*effect.op].routine == flow_.nodes[op].routine && *effect.op < op;
     if ((calls || before) && (!found || nodes_[*found].effect.from <= effect.from)) found = node;
   }
   return found;

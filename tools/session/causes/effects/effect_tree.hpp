@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "interpreter/analysis/flow/flow.hpp"
 #include "tools/session/causes/effects/effect.hpp"
 #include "tools/session/causes/effects/run_differences.hpp"
 
@@ -74,7 +75,7 @@ class EffectTree {
   const Program& program_;
   const RunRecord &known_, &without_;
   const RunDifferences& differences_;
-  std::vector<std::uint32_t> routine_;  // by op: the first op of its routine
+  ControlFlow flow_;
   std::vector<Node> nodes_{};
   std::map<Subject, std::size_t> node_of_{};
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> nodes_of_bit_{};

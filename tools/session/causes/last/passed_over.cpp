@@ -16,24 +16,7 @@ bool is_jump(const Op& op) {
   return op.instruction->structure == Structure::Jump || op.instruction->structure == Structure::SegmentExit;
 }
 
-bool ends_routine(const Op& op) {
-  const Structure structure = op.instruction->structure;
-  return structure == Structure::MainEnd || structure == Structure::SubroutineEnd || structure == Structure::InterruptEnd;
-}
-
 }  // namespace
-
-/// The main program may stand behind the others.
-std::vector<std::uint32_t> routine_heads(const Program& program) {
-  std::vector<std::uint32_t> heads;
-  std::uint32_t head = 0;
-  for (std::uint32_t op = 0; op < program.ops.size(); ++op) {
-    if (begins_routine(program.ops[op].instruction->structure)) head = op;
-    heads.push_back(head);
-    if (ends_routine(program.ops[op])) head = op + 1;
-  }
-  return heads;
-}
 
 std::string RungReader::at_text(const Passed& passed) {
   const std::string contacts = passed.contacts.empty() ? "" : fmt::format(" ({})", passed.contacts);
@@ -53,7 +36,7 @@ void RungReader::instruction(const InstructionRecord& record) {
 
 bool RungReader::leads_past(std::uint32_t by, std::uint32_t op) const {
   const bool jumps = is_jump(program_.ops[by]);
-  return by < op && head_[by] == head_[op] && (!jumps || program_.ops[by].target > op);
+  return by < op && flow_.nodes[by].routine == flow_.nodes[op].routine && (!jumps || program_.ops[by].target > op);
 }
 
 const RungReader::Way* RungReader::last_way_past(std::uint32_t op) const {
@@ -71,12 +54,12 @@ std::string RungReader::what_kept(std::uint32_t op, std::size_t calls) const {
     return fmt::format("had no power flow {}", at_text(passed->second));
   const std::string when = was_passed ? "after " + moment_text(passed->second.at) : "lately";
   std::string by = way ? text_of(*way) : loop_without_pass(op);
-  if (by.empty()) by = what_calls(head_[op], calls);
+  if (by.empty()) by = what_calls(flow_.routine_of(op).first, calls);
   return fmt::format("was not executed {}{}", when, by.empty() ? "" : ": " + by);
 }
 
 std::string RungReader::text_of(const Way& way) const {
-  const bool in_main = !begins_routine(program_.ops[head_[way.first]].instruction->structure);
+  const bool in_main = flow_.routine_of(way.first).kind == Routine::Kind::Main;
   const std::string_view ended = in_main ? "ended the scan in front of" : "ended the routine in front of";
   return fmt::format("{} {} it {}", named_without_comment(way.first, program_),
                      is_jump(program_.ops[way.first]) ? "jumped over" : ended, at_text(way.second));

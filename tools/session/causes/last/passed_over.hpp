@@ -9,19 +9,17 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/analysis/flow/flow.hpp"
 #include "interpreter/trace/trace_reasons.hpp"
 #include "tools/session/past/reader.hpp"
 
 namespace s7200::tools {
 
-/// By op, the first op of its routine.
-std::vector<std::uint32_t> routine_heads(const Program& program);
-
 class RungReader final : public Reader {
  public:
   /// The program must live as long as this.
   RungReader(const Program& program, std::size_t station, StopToken stop_request)
-      : Reader(station, stop_request), reasons(program), program_(program), head_(routine_heads(program)) {}
+      : Reader(station, stop_request), reasons(program), program_(program), flow_(control_flow(program)) {}
 
   void record(const TraceRecord& record) override { reasons.note(record); }
   void instruction(const InstructionRecord& record) override;
@@ -49,7 +47,7 @@ class RungReader final : public Reader {
   std::string loop_without_pass(std::uint32_t op) const;
 
   const Program& program_;
-  std::vector<std::uint32_t> head_;                  // by op
+  ControlFlow flow_;
   std::map<std::uint32_t, Passed> without_power_{};  // by op, the last time
   std::map<std::uint32_t, Passed> taken_{};          // by op of a jump or an end, the last time
   std::set<std::uint32_t> entered_{};                // ops of FOR and CALL that had power
