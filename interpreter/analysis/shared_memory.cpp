@@ -32,7 +32,7 @@ SharedMemory::Side uses_of(const ControlFlow& flow, const ReferenceEntry& entry,
     }
   for (auto* ops : {&side.reads, &side.writes}) {
     std::ranges::sort(*ops);
-    ops->erase(std::ranges::unique(*ops).begin(), ops->end());
+    ops->erase(std::unique(ops->begin(), ops->end()), ops->end());
   }
   return side;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "interpreter/analysis/effects/value_boxes.hpp"
+#include "interpreter/analysis/flow/paths.hpp"
 #include "interpreter/analysis/flow/ways.hpp"
 #include "interpreter/analysis/warnings/lint.hpp"
 #include "interpreter/analysis/warnings/lint_ops.hpp"
