@@ -4,7 +4,7 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { browser, end, open, picture, view } from './support.mjs';
+import { browser, end, open, picture, rendered, view } from './support.mjs';
 
 const kPump = ['tests/exports/pump.awl', 'tests/exports/pump_symbols.txt', 'tests/exports/pump_data.txt'];
 let chrome, plc, page;
@@ -72,8 +72,7 @@ test('a switch is an input: the pump runs while the lamp says so', async () => {
 
 test('a push button is on as long as it is pressed', async () => {
   await page.click('[aria-label^="Input I0.7"]', { button: 'right' });
-  const button = page.locator('[aria-label^="Input I0.7"]');
-  await button.hover();
+  await page.hover('.switch.push[aria-label^="Input I0.7"]');
   await page.mouse.down();
   await page.waitForSelector('[aria-label^="Input I0.7"][aria-checked=true]');
   await page.mouse.up();
@@ -114,9 +113,11 @@ test('a pulse train counts in simulated time, whatever the pace', async () => {
   await other.keyboard.type('25');
   await other.keyboard.press('Enter');
   assert.equal(await other.inputValue('[aria-label="Pulses a second at I0.0"]'), '25 Hz');
+  await rendered(other);
   await other.fill('[aria-label="Pulses a second at I0.0"]', '2000');
   await other.keyboard.press('Enter');
   await other.waitForSelector('.notice.error:has-text("from 0.01 to 1000")');
+  await rendered(other);
   await other.fill('[aria-label="Pulses a second at I0.0"]', '100');
   await other.press('[aria-label="Pulses a second at I0.0"]', 'Enter');
   await input.click();

@@ -1,7 +1,7 @@
 // The frame: toolbar, keys, help, lamps, and what is said when the connection is lost.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { browser, end, kPhone, moment, open, picture, view } from './support.mjs';
+import { browser, end, kPhone, moment, open, picture, rendered, view } from './support.mjs';
 
 const kPump = ['tests/exports/pump.awl', 'tests/exports/pump_symbols.txt', 'tests/exports/pump_data.txt'];
 let chrome, plc;
@@ -198,6 +198,7 @@ test('several windows show the same session', async () => {
   await one.click('#do-scan');
   await one.click('#do-scan');
   await other.waitForSelector('[aria-label^="Input I0.5"][aria-checked=true]');
+  await rendered(one);
   await other.waitForFunction((text) => document.querySelector('#moment').value === text, await one.inputValue('#moment'));
   await one.close();
   await other.close();

@@ -1,7 +1,7 @@
 // The whole page with the keyboard alone.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { browser, end, open, picture, view } from './support.mjs';
+import { browser, end, open, picture, rendered, view } from './support.mjs';
 
 const kPump = ['tests/exports/pump.awl', 'tests/exports/pump_symbols.txt', 'tests/exports/pump_data.txt'];
 let chrome, plc, page;
@@ -175,9 +175,12 @@ test('a new value is written and forced, and the menu of a row is beside it', as
 });
 
 test('what keeps an output off is a tree that opens with Space', async () => {
-  await press('4', 'Tab', 'Tab', 'Tab');
+  await press('4');
+  await rendered(page);
+  await press('Tab', 'Tab', 'Tab');
   for (let i = 0; i < 4 && (await focused()).tag !== 'input'; ++i) await press('Tab');
   await page.keyboard.type('Q0.0');
+  await rendered(page);
   await press('Tab', 'Tab');
   assert.equal((await focused()).name, 'What keeps it so?');
   await press('Enter');

@@ -8,6 +8,7 @@ import { after } from 'node:test';
 const { chromium } = createRequire(`${process.env.PACKAGES}/node_modules/`)('playwright-core');
 const kSource = process.env.SOURCE;
 const kPictures = process.env.S7200_SCREENSHOTS;
+const kFrame = Number(process.env.S7200_SLOW_FRAMES ?? 0);  // ms that each frame takes longer, as on a slow computer
 const kPageFiles = process.env.S7200_PAGE_FILES;  // a folder with another page.js and page.css, for work on the page without a build
 
 export const kDesktop = { width: 1366, height: 650 };  // what a browser leaves of 1366×768
@@ -53,10 +54,24 @@ export async function end(server) {
 }
 
 export async function browser() {
-  return chromium.launch({
+  const chrome = await chromium.launch({
     executablePath: '/usr/bin/chromium',
     args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'],
   });
+  return kFrame > 0 ? with_slow_frames(chrome) : chrome;
+}
+
+function with_slow_frames(chrome) {
+  const new_page = chrome.newPage.bind(chrome);
+  chrome.newPage = async (options) => {
+    const page = await new_page(options);
+    await page.addInitScript((ms) => {
+      const next_frame = window.requestAnimationFrame.bind(window);
+      window.requestAnimationFrame = (render) => window.setTimeout(() => next_frame(render), ms);
+    }, kFrame);
+    return page;
+  };
+  return chrome;
 }
 
 /** An open page; what goes wrong in it fails the test that looks at `page.troubles`. */
@@ -78,6 +93,12 @@ export async function picture(page, name) {
   if (!kPictures) return;
   mkdirSync(kPictures, { recursive: true });
   await page.screenshot({ path: path.join(kPictures, `${name}.png`) });
+}
+
+/** The page shows what it knows by now: it renders before the frame after next is drawn. Who types into a field that is about to be rendered
+    would lose what is typed, which no hand is quick enough for. */
+export async function rendered(page) {
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }
 
 /** The moment that the toolbar shows, in ms. */

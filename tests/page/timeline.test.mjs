@@ -1,7 +1,7 @@
 // The timeline and the line: tracks, zoom, cursors, searches, a request and its answer.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { browser, end, moment, open, picture, view } from './support.mjs';
+import { browser, end, moment, open, picture, rendered, view } from './support.mjs';
 
 let chrome, plc, page;
 before(async () => {
@@ -169,6 +169,7 @@ test('dragging in the ruler measures between two cursors', async () => {
   await page.mouse.down();
   await page.mouse.move(box.x + 500, box.y + 8, { steps: 4 });
   await page.mouse.up();
+  await rendered(page);
   assert.match(await page.textContent('.readout'), /^B − A = [\d.]+ (ms|s|µs)/);
   await picture(page, 'timeline_measured');
 });
@@ -226,7 +227,7 @@ test('a condition is searched for through the past, and by running on', async ()
   await page.keyboard.type('SM4.5 = 0');
   await page.keyboard.press('Enter');
   await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 200);
-  assert.equal(await page.textContent('.tag'), 'past');
+  await page.waitForSelector('.tag.past');
   await page.fill('#condition', 'VB0 = 77');
   await page.press('#condition', 'Enter');
   await page.waitForSelector('.notice:has-text("VB0 = 77 does not come to hold within")');
@@ -290,10 +291,26 @@ test('a condition is searched for beyond the answers on the way', async () => {
   await page.waitForSelector('.tag.now');
 });
 
+test('who goes elsewhere while a condition is searched for stays there', async () => {
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press('Home');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) === 0);
+  await page.fill('#condition', 'VW20 = 4242');
+  await page.press('#condition', 'Enter');
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press('End');
+  await page.waitForSelector('.tag.now');
+  await page.waitForFunction(() => document.querySelector('#do-run').textContent === 'Run');
+  await page.waitForTimeout(300);
+  assert.equal(await page.locator('.tag.now').count(), 1);
+  assert.equal(await page.locator('.notice').count(), 0);
+});
+
 test('an interrupt is gone to; where there is none the page says so and stays', async () => {
   await page.evaluate(() => document.activeElement?.blur());
   await page.keyboard.press('Shift+I');
   await page.waitForSelector('.tag.past');
+  await rendered(page);
   assert.ok(await moment(page) > 100);
   await page.keyboard.press('Home');
   await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) === 0);

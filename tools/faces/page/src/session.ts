@@ -327,6 +327,11 @@ export function begin_anew(): void {
 /** Carries out something that moves the session; what it says is shown where it stops. */
 export async function move<Json = unknown>(line: string): Promise<Reply<Json>> {
   take_over();
+  return move_on<Json>(line);
+}
+
+/** The same as a step of something that goes on after it. */
+export async function move_on<Json = unknown>(line: string): Promise<Reply<Json>> {
   state.running = true;
   begin_anew();
   changed();

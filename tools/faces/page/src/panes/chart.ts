@@ -136,7 +136,7 @@ function chart_row(row: ChartRow, i: number): Part {
       h('button', { class: forced ? 'forced' : '', 'aria-pressed': String(forced), 'aria-label': `Force ${row.address}`, title: forced ? 'Unforce' : 'Force the new value, or the current one',
         onclick: () => void toggle_force(row) }, icon('lock')),
       h('button', { class: 'plain', 'aria-label': `Menu of ${row.address}`, title: 'Chart, who, why', onclick: (event: MouseEvent) => open_menu(event, row.address, null) }, '⋯'),
-      h('button', { class: 'plain', 'aria-label': `Remove ${row.address}`, title: 'Remove', onclick: () => { state.chart.splice(i, 1); keep(); } }, icon('close'))),
+      h('button', { class: 'plain', 'aria-label': `Remove ${row.address}`, title: 'Remove', onclick: () => { state.chart = state.chart.filter((one) => one !== row); keep(); } }, icon('close'))),
     h('td', {}, is_analog_input(value) ? slider(value!.address, Number(value!.number)) : sparkline(query_of(row.address, row.format))));
 }
 

@@ -185,12 +185,14 @@ function follow(all: { place: Place; top: number; height: number }[]): void {
   if (found && (found.top < scroller.scrollTop || found.top + seen_height > scroller.scrollTop + scroller.clientHeight)) scroller.scrollTop = Math.max(0, found.top - 20);
 }
 
-/** The line whose network stays at the top until one scrolls: how high those above it are is known only when they are drawn. */
-let wanted_line: number | null = null, set_top = 0;
+/** The line whose network stays at the top until one scrolls: how high those above it are is known only when they are drawn, and as they
+    come to be known the browser scrolls as well. */
+let wanted_line: number | null = null;
 
 /** Brings the network of that line into view, or the first one after it. */
 export function show_in_ladder(line: number): void {
   wanted_line = line;
+  followed = state.past?.op ?? null;  // where the CPU stands is left until it stands elsewhere
   changed();
 }
 
@@ -198,13 +200,11 @@ function keep_in_view(all: { place: Place; top: number }[]): void {
   const wanted = wanted_line === null ? undefined : all.find(({ place }) => place.line >= wanted_line!);
   if (!scroller || !wanted) return;
   scroller.scrollTop = wanted.top;
-  if (scroller.scrollTop !== set_top) requestAnimationFrame(changed);
-  set_top = scroller.scrollTop;
 }
 
-function scrolled(): void {
-  if (scroller?.scrollTop !== set_top) wanted_line = null;
-  changed();
+/** Wheel, scroll bar, finger or a key: from then on one scrolls. */
+function take_hold(): void {
+  wanted_line = null;
 }
 
 /** The network that was chosen with the keyboard or a click: that of the selected line, else the one where the CPU stands. */
@@ -215,6 +215,7 @@ function chosen_of(all: Place[]): number {
 
 function on_key(event: KeyboardEvent): void {
   const step = { ArrowUp: -1, ArrowDown: 1 }[event.key], all = places();
+  take_hold();
   if (step === undefined) return;
   event.preventDefault();
   const next = all[chosen_of(all) + step];
@@ -241,7 +242,7 @@ export function ladder_view(): Part {
     in_view = shown.map((one) => one.place);
     seen.refresh();
   }
-  return h('div', { class: 'listing ladders', tabindex: '0', role: 'group', 'aria-label': 'Ladder: arrows choose a network, Tab reaches its addresses', onscroll: scrolled, onkeydown: on_key,
+  return h('div', { class: 'listing ladders', tabindex: '0', role: 'group', 'aria-label': 'Ladder: arrows choose a network, Tab reaches its addresses', onscroll: changed, onwheel: take_hold, onpointerdown: take_hold, ontouchmove: take_hold, onkeydown: on_key,
     ref: (node: HTMLElement) => { const first = scroller !== node; scroller = node; if (first) requestAnimationFrame(changed); follow(all); keep_in_view(all); } },
   h('div', { class: 'rows', style: { height: `${top}px` } }, shown.map(({ place, top: y }) =>
     h('section', { id: `network-${place.line}`, 'aria-label': place.name, class: `ladder-network${place.line === chosen ? ' chosen' : ''}${state.past?.op !== null && state.past && state.past.op! >= place.first && state.past.op! < place.end ? ' here' : ''}`, key: place.line, ref: measure(place), style: { top: `${y}px` } },

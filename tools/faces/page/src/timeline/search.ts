@@ -1,7 +1,7 @@
 // Searches through the past: the nearest trouble, the next request without an answer, the longest answer, the longest scan.
 import { exchanges_of, is_unanswered, type Exchange } from '../exchanges';
 import { ask_why_latency } from '../causes';
-import { command, move, take_over } from '../session';
+import { command, move, move_on, take_over } from '../session';
 import { notice, state } from '../state';
 import { duration_text, moment_word } from '../words';
 import { bring_into_view, show_found, spans_between } from './view';
@@ -134,10 +134,10 @@ export async function find_longest_scan(): Promise<void> {
 const kLongestRun = 10e9;  // ns that are run for a condition when there is no past after this moment
 
 /** Runs to a moment or a stop point: an answer to a master's request, at which `continue` ends, is none. */
-async function run_past_answers(end_ns: number): Promise<Reply<Stopped>> {
+async function run_past_answers(end_ns: number, is_wanted: () => boolean): Promise<Reply<Stopped>> {
   for (;;) {
-    const run = await move<Stopped>(`continue ${moment_word(end_ns - (state.past?.now_ns ?? end_ns))}`);
-    if (run.json?.stopped !== 'answer' || (state.past?.now_ns ?? end_ns) >= end_ns) return run;
+    const run = await move_on<Stopped>(`continue ${moment_word(end_ns - (state.past?.now_ns ?? end_ns))}`);
+    if (!is_wanted() || run.json?.stopped !== 'answer' || (state.past?.now_ns ?? end_ns) >= end_ns) return run;
   }
 }
 
@@ -145,13 +145,13 @@ async function run_past_answers(end_ns: number): Promise<Reply<Stopped>> {
 export async function find_condition(condition: string): Promise<void> {
   const past = state.past;
   if (!past || condition.trim() === '') return;
-  const set = await command<Stops>(`break ${condition}; break`);
+  const is_wanted = take_over(), set = await command<Stops>(`break ${condition}; break`);
   if (set.error !== undefined || !set.json) return;
   const number = Math.max(...set.json.stops.map((one) => one.number));
   const length = past.in_the_past ? past.newest_ns - past.now_ns : kLongestRun, end_ns = past.now_ns + length;
-  const run = await run_past_answers(end_ns);
+  const run = await run_past_answers(end_ns, is_wanted);
   await command(`delete ${number}`);
-  if (run.json?.stopped === 'stop point') return;
+  if (!is_wanted() || run.json?.stopped === 'stop point') return;
   if (past.in_the_past) await move(`at ${moment_word(past.now_ns)}`);
   notice(`${condition} does not come to hold within ${duration_text(length)}`);
 }
