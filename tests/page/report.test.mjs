@@ -48,9 +48,7 @@ test('an exchange is in its report, to the instant', async () => {
   const said = JSON.parse(s7200(0, 'send', kSlave, '--crc', '0103000a0002', '--set', 'VW20=77', '--json', '--report', file('send.html')));
   const page = await open('send.html');
   await page.click('#tab-line');
-  await page.waitForSelector('.exchanges tbody tr');
-  const row = await page.textContent('.exchanges tbody tr');
-  assert.match(row, /16#004D/, row);
+  await page.waitForSelector('.exchanges tbody tr:has-text("16#004D")');
   const latency = parseFloat(await page.textContent('.exchanges tbody .number'));
   assert.ok(Math.abs(latency - said.exchanges[0].latency_us / 1000) < 0.001, `${latency} ms, and ${said.exchanges[0].latency_us} us`);
   await page.end();
@@ -69,6 +67,16 @@ test('a request without an answer is in the summary, and has none wherever one s
   await page.waitForTimeout(500);
   assert.match(await page.textContent('.exchanges tr.trouble'), /no answerWhy\?/);
   assert.match(await page.textContent('.line-pane'), /1 request, 1 without an answer/);
+  await page.end();
+});
+
+test('a report of a master opens at its first request without an answer', async () => {
+  s7200(1, 'master', kSlave, 'read', '40001', '--station', '9', 'read', '40002', '--report', file('nobody.html'));
+  const page = await open('nobody.html');
+  await page.waitForSelector('.summary .unanswered >> nth=1');
+  await stands_at(page, 181, 2);
+  await page.click('.summary .unanswered .why');
+  await page.waitForSelector('.trail:has-text("the request was for station 9")');
   await page.end();
 });
 

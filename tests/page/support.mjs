@@ -62,15 +62,17 @@ export async function browser() {
 }
 
 function with_slow_frames(chrome) {
-  const new_page = chrome.newPage.bind(chrome);
-  chrome.newPage = async (options) => {
-    const page = await new_page(options);
-    await page.addInitScript((ms) => {
-      const next_frame = window.requestAnimationFrame.bind(window);
-      window.requestAnimationFrame = (render) => window.setTimeout(() => next_frame(render), ms);
-    }, kFrame);
-    return page;
-  };
+  for (const make of ['newPage', 'newContext']) {
+    const made = chrome[make].bind(chrome);
+    chrome[make] = async (options) => {
+      const one = await made(options);  // a page, or the context of some
+      await one.addInitScript((ms) => {
+        const next_frame = window.requestAnimationFrame.bind(window);
+        window.requestAnimationFrame = (render) => window.setTimeout(() => next_frame(render), ms);
+      }, kFrame);
+      return one;
+    };
+  }
   return chrome;
 }
 

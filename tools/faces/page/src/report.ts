@@ -47,10 +47,10 @@ const kShort = 600e9;  // ns: the end of a shorter run is computed before one ha
 
 const kMostFrames = 20000;
 
-/** Where a request of `send` had no answer, the report opens: what it says has waited for all of them. */
+/** Where a request of `send` or `master` had no answer, the report opens: what they say has waited for all of them. */
 async function open_at_unanswered(): Promise<void> {
   const run = state.report?.runs[state.run ?? 0], end_ns = run?.recordings?.[state.recording ?? 0]?.end[2] ?? 0;
-  if (state.report?.verb !== 'send' || end_ns > kShort) return;
+  if (!['send', 'master'].includes(state.report?.verb ?? '') || end_ns > kShort) return;
   state.unanswered = exchanges_of(await spans_between(0, end_ns, kMostFrames), Infinity).filter(is_unanswered);
   if (state.unanswered[0]) await go_to_verdict(state.unanswered[0]);
 }
