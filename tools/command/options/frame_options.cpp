@@ -9,6 +9,7 @@
 #include "interpreter/base/text/text.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tools/command/options/help_groups.hpp"
+#include "tools/command/options/plc/program_options.hpp"
 #include "tools/host/files/files.hpp"
 #include "tools/views/text_frame.hpp"
 
@@ -24,6 +25,9 @@ std::string without_comment(const std::string& line) {
 }
 
 bool is_crc(std::string_view word) { return stl::lower_case(word) == "crc"; }
+
+/// Other verbs take the files of a project one after the other; here frames follow the PROGRAM.
+bool is_file(const std::string& word) { return word.find('.') != std::string::npos && host_files().exists(word); }
 
 /// A frame in hex; `crc` as its last word appends the Modbus CRC, as in the debugger.
 serial::ParsedFrame parse_hex_with_crc(std::string_view text) {
@@ -69,6 +73,8 @@ Result<std::vector<serial::Frame>> FrameOptions::read() const {
     if (option != hex_ && option != text_) continue;
     const bool is_text = option == text_;
     const std::string& next = is_text ? *text++ : *frame++;
+    if (!is_text && is_file(next))
+      return trouble("'{}' is a file, and a frame in hex is expected here; {}", next, how_to_give(next));
     written.push_back({next, fmt::format("{} '{}'", is_text ? "--text" : "frame", stl::shortened(next)),
                        is_text ? parse_text : parse_hex_with_crc});
   }

@@ -20,11 +20,11 @@ namespace {
 
 int run_send(const CLI::App& verb, SendOptions& options) {
   if (options.band.wanted() && !is_system_file(options.program.path)) return run_send_band(options);
+  const auto frames = options.frames.read();
+  if (!frames) return print_error(frames.why()), kUnusable;
   int exit_code = kFine;
   if (!options.rig.load(verb, options.program, exit_code)) return exit_code;
   options.master = options.rig.on_line(options.master);
-  const auto frames = options.frames.read();
-  if (!frames) return print_error(frames.why()), kUnusable;
   if (!options.report.prepare_for(options.rig.plan())) return kUnusable;
   const auto rig = options.rig.assemble(options.json);
   if (!rig) return options.rig.exit_code_without_rig();

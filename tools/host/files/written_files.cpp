@@ -96,7 +96,7 @@ Result<Destination> WrittenFiles::claim(std::string_view option, const std::stri
     return refuse(fmt::format("{} exists and is not {}; it is left alone", path, destination.kind.name));
   if (holds_something && replace == Replace::Never) return refuse(fmt::format("{} exists", path));
   if (found && file_system::is_being_written(path))
-    return refuse(fmt::format("{} {}: another command is still writing it; name another", option, path));
+    return refuse(fmt::format("{} {}: another program has it open to write; close it there, or name another", option, path));
   if (const int error = file_system::why_no_new_file(folder_of(path)); error != 0)
     return refuse(fmt::format("cannot write {}: {}", path,
                               error == ENOENT ? fmt::format("there is no folder {}", folder_of(path)) : error_text(error)));
@@ -151,9 +151,9 @@ Result<> GrowingResult::add(std::string_view text) { return check(write_all(file
 Result<> GrowingResult::complete() {
   int error = file_system::write_through(file_.fd());
   if (error == 0) error = file_.close();
-  if (error == 0) error = file_.put(destination_);
-  if (const auto done = check(error); !done)
-    return error == EBUSY ? trouble("{}; what was to be there is in {}", done.why(), file_.keep()) : done.trouble();
+  if (const auto done = check(error); !done) return done.trouble();
+  if (const auto done = check(file_.put(destination_)); !done)
+    return trouble("{}; what was to be there is in {}", done.why(), file_.keep());
   // The new name itself on the disk as well; the content is safe already.
   file_system::write_names_through(folder_of(destination_.path));
   return {};

@@ -85,9 +85,11 @@ std::optional<Found> look(const std::string& path, DWORD flags) {
   return handle ? look_at_handle(handle.get()) : std::nullopt;
 }
 
-/// A file that another program holds and one that may not be written give the same error when they are to be replaced.
+/// A file that another program has open, in whatever way, and one that may not be written give the same error when they are to be
+/// replaced.
 int why_not_replaced(const std::string& path) {
-  const Handle file(CreateFileW(native_path(path).c_str(), DELETE, kShareAll, nullptr, OPEN_EXISTING,
+  constexpr DWORD kShareNothing = 0;
+  const Handle file(CreateFileW(native_path(path).c_str(), DELETE, kShareNothing, nullptr, OPEN_EXISTING,
                                 FILE_FLAG_OPEN_REPARSE_POINT, nullptr));
   return !file && GetLastError() == ERROR_SHARING_VIOLATION ? EBUSY : EACCES;
 }

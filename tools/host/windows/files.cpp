@@ -42,7 +42,8 @@ Result<std::string> read_file(const std::string& path) {
   const Handle file(CreateFileW(native_path(path).c_str(), GENERIC_READ,
                                 FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr, OPEN_EXISTING,
                                 FILE_FLAG_SEQUENTIAL_SCAN, nullptr));
-  if (!file) return Trouble{words_of(GetLastError())};
+  const bool is_pattern = path.find_first_of("*?") != std::string::npos;
+  if (!file) return Trouble{is_pattern ? "no file fits this pattern" : words_of(GetLastError())};
   std::string bytes;
   for (std::array<char, 65536> piece{};;) {
     DWORD count = 0;

@@ -121,6 +121,11 @@ std::optional<SystemBlock> CpuOptions::system_block(const CpuModel& model) const
   return system_block_.read(settings, &of_cpu) ? std::optional(settings.system_block) : std::nullopt;
 }
 
+std::string how_to_give(const std::string& file) {
+  const char* const quote = file.find(' ') == std::string::npos ? "" : "\"";
+  return fmt::format("another file of the program's project is given with --with {0}{1}{0}", quote, file);
+}
+
 void ProgramOptions::add_to(CLI::App& app) {
   app.add_option("PROGRAM", path, "STL file (.stl, .awl, .txt) or published document with STL in it; - is standard input")
       ->required();

@@ -60,6 +60,9 @@ struct CpuOptions {
   PlcKeyOptions system_block_;
 };
 
+/// How that file of a program's project is named to verbs that take other words after the PROGRAM.
+std::string how_to_give(const std::string& file);
+
 struct ProgramOptions : CpuOptions {
   std::string path;
   std::vector<std::string> parts;  ///< more files of the same project: symbol tables, data blocks, blocks

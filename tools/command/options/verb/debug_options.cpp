@@ -27,7 +27,7 @@ void DebugOptions::add_to(CLI::App& app) {
   app.add_option("--commands", commands_file, "commands to execute, one a line; // begins a comment")
       ->type_name("FILE")
       ->group(help_group::kCommands);
-  app.add_option("-x,--execute", commands, "commands to execute, separated by ; (repeatable; after --commands)")
+  app.add_option("-x,--execute", commands, "commands to execute, with semicolons between them (repeatable, after --commands)")
       ->type_name("COMMANDS")
       ->allow_extra_args(false)
       ->group(help_group::kCommands);

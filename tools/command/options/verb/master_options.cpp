@@ -189,9 +189,7 @@ void MasterOptions::refuse_what_a_peer_does_not_take(Kind kind) const {
 void MasterOptions::refuse_file_as_action() const {
   if (words.empty() || words.front().find('.') == std::string::npos || !host_files().exists(words.front())) return;
   throw std::invalid_argument(
-      fmt::format("'{0}' is a file, and an action is expected here; another file of the program's project is given with "
-                  "--with {0}",
-                  words.front()));
+      fmt::format("'{}' is a file, and an action is expected here; {}", words.front(), how_to_give(words.front())));
 }
 
 std::vector<MasterAction> MasterOptions::actions(bool over_tcp) const {

@@ -78,15 +78,24 @@ Json Sources::place_of(std::uint32_t line) const {
   return {{"source", source_of(file)}, {"line", line - file.before}};
 }
 
+std::optional<std::size_t> Sources::file_named(const std::string& path) const {
+  const auto is_named = [&](const File& file) {
+    std::error_code error;
+    return file.path == path || std::filesystem::equivalent(file_path(file.path), file_path(path), error);
+  };
+  const auto file = std::ranges::find_if(files_, is_named);
+  return file == files_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(file - files_.begin()));
+}
+
 std::optional<std::uint32_t> Sources::line_in(const std::string& path, std::uint32_t line) const {
-  for (std::size_t i = 0; i < files_.size(); ++i)
-    if (files_[i].path == path && line >= 1 && line <= lines_of(i)) return files_[i].before + line;
-  return {};
+  const auto file = file_named(path);
+  if (!file || line < 1 || line > lines_of(*file)) return {};
+  return files_[*file].before + line;
 }
 
 std::optional<std::uint32_t> Sources::lines_of(const std::string& path) const {
-  const auto file = std::ranges::find(files_, path, &File::path);
-  return file == files_.end() ? std::nullopt : std::optional(lines_of(static_cast<std::size_t>(file - files_.begin())));
+  const auto file = file_named(path);
+  return file ? std::optional(lines_of(*file)) : std::nullopt;
 }
 
 std::uint32_t Sources::lines_of(std::size_t file) const {

@@ -45,6 +45,8 @@ class Sources {
     std::uint32_t before = 0;  ///< lines of the program in front of its first
   };
   Json source_of(const File& file) const;
+  /// A file may have several names: links, and in Windows capitals do not tell them apart.
+  std::optional<std::size_t> file_named(const std::string& path) const;
   std::uint32_t lines_of(std::size_t file) const;
 
   std::vector<File> files_;
