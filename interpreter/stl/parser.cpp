@@ -14,7 +14,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -113,7 +112,7 @@ struct MustDirective {
     template <class Context, class RuleContext, class Attribute>
     bool parse(Place& first, const Place& last, const Context& context, RuleContext& rule, Attribute& attribute) const {
       if (this->subject.parse(first, last, context, rule, attribute)) return true;
-      Missing& missing = x3::get<Missing>(context).get();
+      Missing& missing = x3::get<Missing>(context);
       if (missing.where == nullptr) missing = {first, x3::what(this->subject)};
       return false;
     }
@@ -127,10 +126,11 @@ struct MustDirective {
 constexpr MustDirective must;
 
 /// Reads a text from `at` on by a grammar, and moves `at` to where that ends. Returns false if the text does not match, or
-/// if a part that must be there is not; `missing` then names it.
+/// if a part that must be there is not; `missing` then names it. x3::with<Missing>(missing)[described] would copy the whole
+/// grammar for each text.
 template <class Grammar, class Attribute>
 bool parse_beginning(Place& at, Place end, const Grammar& described, Attribute& attribute, Missing& missing) {
-  return x3::parse(at, end, x3::with<Missing>(std::ref(missing))[described], attribute) && missing.where == nullptr;
+  return described.parse(at, end, x3::make_context<Missing>(missing), x3::unused, attribute) && missing.where == nullptr;
 }
 
 template <class Grammar, class Attribute>
@@ -213,7 +213,7 @@ const auto digit = char_("0-9");  // x3::digit asserts on characters beyond ASCI
 const auto sign = char_("+-");
 // Names may have letters of any alphabet, but not debris (U+FFFD), a no-break space or East Asian punctuation.
 const auto never_in_names = lit("\xEF\xBF\xBD") | lit("\xC2\xA0") | lit("\xE3\x80") | lit("\xEF\xBC");
-const auto beyond_ascii = !never_in_names >> char_("\x80-\xff");
+const auto beyond_ascii = &char_("\x80-\xff") >> !never_in_names >> char_;
 const auto word_character = char_("A-Za-z0-9_") | beyond_ascii;
 const auto end_of_word = !word_character;
 const auto end_of_address = end_of_word >> !lit(':');  // S1:I0.0 is a symbol with its address
@@ -242,6 +242,10 @@ const auto decimal = named<struct Decimal, RawWord>("a constant") =
 const auto ascii = named<struct Ascii, RawWord>("a constant") =
     (limit >> attr(Kind::Ascii) >> lit('\'')) >> must[ascii_text] >> must[closing_quote];
 
+const auto begin_of_constant = char_("0-9'+-") | no_case[size_prefixes];
+const auto constant = named<struct Constant, RawWord>("a constant") = &begin_of_constant >>
+                                                                      (ascii | hexadecimal | binary | real | decimal);
+
 // S7-Micro/DOS: K4, K-5, KHFF. Other letters after the K are not known.
 const auto k_decimal = named<struct KDecimal, RawWord>("a constant") =
     attr(Size::None) >> attr(Kind::Decimal) >> no_case[lit('k')] >> decimal_digits >> end_of_address;
@@ -249,6 +253,8 @@ const auto k_hexadecimal = named<struct KHexadecimal, RawWord>("a constant") =
     attr(Size::None) >> attr(Kind::Hex) >> no_case[lit("kh")] >> hex_digits >> end_of_address;
 const auto k_unknown = named<struct KUnknown, RawWord>("a constant") =
     attr(Size::None) >> attr(Kind::UnknownK) >> raw[char_("Kk") >> char_("BbWwDd") >> -sign >> +digit] >> end_of_address;
+const auto k_constant = named<struct KConstant, RawWord>("a constant") = &char_("Kk") >>
+                                                                         (k_decimal | k_hexadecimal | k_unknown);
 
 const auto bit_number = named<struct BitNumber, Range>("a bit number") = raw[+digit];
 const auto address = named<struct AddressRule, RawAddress>("an address") = (char_("&*") | attr('\0')) >>
@@ -270,8 +276,7 @@ struct OperandRule {
     operand.text = Range(first, last);
   }
 };
-const auto operand = named<OperandRule, RawOperand>("an operand") =
-    ascii | hexadecimal | binary | real | decimal | k_decimal | k_hexadecimal | k_unknown | address | name;
+const auto operand = named<OperandRule, RawOperand>("an operand") = constant | k_constant | address | name;
 
 const auto next_operand = named<struct NextOperand, RawOperand>("an operand") =
     (blanks >> lit(',') >> blanks >> must[operand]) | (x3::omit[+char_(" \t\f")] >> operand);
@@ -563,15 +568,17 @@ const char* size_letter(Size size) {
 /// The meaning of an address that takes no bit number: `T37 is itself the bit of the timer`. Empty for a byte-addressed area
 /// without a size, V10, which needs one.
 std::string without_bits(const Address& address) {
-  const std::string whole = fmt::format("{}{}{}", address.area, size_letter(address.size), address.number);
-  if (address.area == "T") return whole + " is itself the bit of the timer";
-  if (address.area == "C") return whole + " is itself the bit of the counter";
-  if (address.area == "HC") return whole + " is a double word";
-  if (address.area == "AC") return whole + " is an accumulator";
+  const auto is = [&](std::string_view what) {
+    return fmt::format("{}{}{} is {}", address.area, size_letter(address.size), address.number, what);
+  };
+  if (address.area == "T") return is("itself the bit of the timer");
+  if (address.area == "C") return is("itself the bit of the counter");
+  if (address.area == "HC") return is("a double word");
+  if (address.area == "AC") return is("an accumulator");
   if (address.area == "AI" || address.area == "AQ") return fmt::format("{}W{} is a word", address.area, address.number);
-  if (address.size == Size::Byte) return whole + " is a byte";
-  if (address.size == Size::Word) return whole + " is a word";
-  return address.size == Size::Double ? whole + " is a double word" : "";
+  if (address.size == Size::Byte) return is("a byte");
+  if (address.size == Size::Word) return is("a word");
+  return address.size == Size::Double ? is("a double word") : "";
 }
 
 std::uint32_t bytes_of(Size size) { return size == Size::Double ? 4 : size == Size::Word ? 2 : 1; }
@@ -806,7 +813,7 @@ class LineReader {
     const std::size_t colon = name_end == std::string_view::npos ? name_end : text.find(':', name_end);
     RawAddress address;
     Place at = text.data() + (colon == std::string_view::npos ? text.size() : colon + 1);
-    if (parse_beginning(at, end_of(text), grammar::address >> x3::eoi, address)) {
+    if (parse_beginning(at, end_of(text), grammar::address, address) && at == end_of(text)) {
       if (address.mark == 0 && (text.front() == '&' || text.front() == '*')) address.mark = text.front();
       auto value = address_value(address, range);
       if (!value) return std::nullopt;
@@ -824,7 +831,7 @@ class LineReader {
     if (colon == std::string_view::npos) return std::nullopt;
     RawOperand operand;
     Place at = text.data() + colon + 1;
-    if (!parse_beginning(at, end_of(text), grammar::operand >> x3::eoi, operand)) return std::nullopt;
+    if (!parse_beginning(at, end_of(text), grammar::operand, operand) || at != end_of(text)) return std::nullopt;
     const auto* word = boost::get<RawWord>(&operand.get());
     return word && word->kind != Kind::Name ? std::optional(operand) : std::nullopt;
   }
@@ -1012,7 +1019,7 @@ class LineReader {
     const auto of_routine = foreign_heading(line);
     const auto [of, hint] = of_routine ? heading_hint(of_routine->kind) : HeadingHint{"a network", "write NETWORK"};
     const std::string_view word = line.substr(0, of_routine ? of_routine->bytes : plain::network_word(line));
-    if (word.empty() || upper_case(word) == "NETWORK") return false;
+    if (word.empty() || same_in_capitals(word, "NETWORK")) return false;
     report(position(Range(word.data(), word.data() + word.size())),
            fmt::format("{} is the heading of {} in another language", word, of), std::string(hint),
            "headings in another language");
@@ -1243,7 +1250,7 @@ bool goes_on(std::string_view line, bool after_comma, bool call) {
 
 /// The line after the statement that begins in line `first`.
 std::size_t after_statement(const std::vector<std::string>& lines, std::size_t first) {
-  const bool call = upper_case(trim(lines[first]).substr(0, 5)) == "CALL ";
+  const bool call = same_in_capitals(trim(lines[first]).substr(0, 5), "CALL ");
   std::size_t after = first + 1;
   while (after < lines.size()) {
     const bool comma = ends_in_comma(lines[after - 1]);
