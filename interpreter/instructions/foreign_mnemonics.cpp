@@ -367,15 +367,15 @@ std::optional<UnknownMnemonic> comparison_without_sign(std::string_view mnemonic
     const std::string_view base = mnemonic.substr(0, contact.size() + 1), after = mnemonic.substr(base.size());
     std::vector<std::string> all;  // of strings there are two
     for (const RelationWord& each : kRelationWords)
-      if (find_instruction(fmt::format("{}{}", base, each.relation))) all.push_back(fmt::format("{}{}", base, each.relation));
+      if (find_instruction(fmt::format("{}{}", base, each.relation)))
+        all.push_back(fmt::format("{}{}", base, each.relation));
     if (all.empty()) continue;
     if (after.empty()) return UnknownMnemonic{"a comparison without its relation", "write " + alternatives(all)};
     const auto* const row = std::ranges::find(kRelationWords, after, &RelationWord::word);
     if (row == std::end(kRelationWords)) continue;
     const bool exists = std::ranges::find(all, fmt::format("{}{}", base, row->relation)) != all.end();
-    return UnknownMnemonic{"a comparison in another form",
-                           exists ? fmt::format("write {}{}", base, row->relation)
-                                  : fmt::format("write {}", alternatives(all))};
+    return UnknownMnemonic{"a comparison in another form", exists ? fmt::format("write {}{}", base, row->relation)
+                                                                  : fmt::format("write {}", alternatives(all))};
   }
   return std::nullopt;
 }
@@ -398,9 +398,13 @@ std::optional<UnknownMnemonic> comparison_of_others(std::string_view mnemonic) {
 
 }  // namespace
 
+std::optional<UnknownMnemonic> mnemonic_of_others(std::string_view mnemonic) {
+  auto foreign = foreign_mnemonic(mnemonic);
+  return foreign ? std::move(foreign) : comparison_of_others(mnemonic);
+}
+
 UnknownMnemonic unknown_mnemonic(std::string_view mnemonic) {
-  if (auto foreign = foreign_mnemonic(mnemonic)) return *std::move(foreign);
-  if (auto comparison = comparison_of_others(mnemonic)) return *std::move(comparison);
+  if (auto other = mnemonic_of_others(mnemonic)) return *std::move(other);
   return {"", question_about(nearest_mnemonics(mnemonic))};
 }
 

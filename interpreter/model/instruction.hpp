@@ -178,9 +178,9 @@ struct Rung {
 enum class Join : std::uint8_t { Load, And, Or };
 inline constexpr std::size_t kJoins = 3;
 
-/// The part of a contact or a coil in a chain, which is executed in one go (program/checking/chains.hpp). A part always takes its
-/// op's `cost`: it needs no power flow and has no time per unit. It has no `target` of its own: link() puts its Contact
-/// there.
+/// The part of a contact or a coil in a chain, which is executed in one go (program/checking/chains.hpp). A part always
+/// takes its op's `cost`: it needs no power flow and has no time per unit. It has no `target` of its own: link() puts its
+/// Contact there.
 struct ChainPart {
   enum class Kind : std::uint8_t { None, Contact, Coil };
 
@@ -263,6 +263,9 @@ struct UnknownMnemonic {
   std::string what;  ///< of the German set or of another controller family: "a German mnemonic"; empty otherwise
   std::string hint;  ///< what to write instead, or what was probably meant; empty if none is close
 };
+
+/// A mnemonic (upper case) of the German set or of another controller family; nothing for any other word.
+std::optional<UnknownMnemonic> mnemonic_of_others(std::string_view mnemonic);
 
 /// The mnemonic is in upper case.
 UnknownMnemonic unknown_mnemonic(std::string_view mnemonic);

@@ -21,6 +21,7 @@
 #include "interpreter/stl/tables/symbol_table.hpp"
 #include "interpreter/stl/tables/symbols.hpp"
 #include "interpreter/stl/text/encoding.hpp"
+#include "interpreter/stl/text/plain_line.hpp"
 #include "interpreter/stl/text/plain_text.hpp"
 #include "interpreter/stl/text/string_literals.hpp"
 
@@ -79,13 +80,10 @@ bool begins_with_statements(std::string_view text) {
   constexpr std::size_t kLinesOfCode = 100;
   std::size_t code = 0;
   while (!text.empty() && code < kLinesOfCode) {
-    const std::string_view line = stl::take_line(text);
-    std::string statement = stl::upper_case(line.substr(0, line.find("//")));
-    std::ranges::replace(statement, ',', ' ');
-    const std::vector<std::string> words = stl::split_words(statement);
-    if (words.empty()) continue;
+    const auto [word, others] = stl::plain::first_word_of_code(stl::take_line(text));
+    if (word.empty()) continue;
     ++code;
-    if (words[0] != "NETWORK" && !instruction_set().has(words[0], words.size() - 1)) return false;
+    if (word != "NETWORK" && !instruction_set().has(word, others)) return false;
   }
   return code > 0;
 }
@@ -105,9 +103,7 @@ bool can_be_stl(const std::vector<std::string>& text) {
   return code == 0;
 }
 
-bool is_mnemonic(std::string_view word) {
-  return word == "NETWORK" || find_instruction(word) || !unknown_mnemonic(word).what.empty();
-}
+bool is_mnemonic(std::string_view word) { return word == "NETWORK" || find_instruction(word) || mnemonic_of_others(word); }
 
 std::optional<SourceKind> kind_of_table(std::string_view text) {
   if (stl::is_status_chart(text)) return SourceKind::StatusChart;
@@ -224,7 +220,8 @@ std::string_view why_wrapped(std::string_view text) {
     hunk |= line.starts_with("@@ -");
     changed += is_changed_line(line) ? 1U : 0U;
     if ((hunk && ((minus && plus) || changed > 0)) || changed > 1) return kPatch;
-    const std::string lower = line.size() < 80 ? stl::lower_case(line) : "";
+    const std::string lower =
+        (line.starts_with('C') || line.starts_with('c')) && line.size() < 80 ? stl::lower_case(line) : "";
     mail |= lower.starts_with("content-transfer-encoding: quoted-printable");
     if (lower.starts_with("content-transfer-encoding: base64") || mail || line.starts_with("=3D"))
       return "it is a mail as it was sent, in quoted-printable or base64: open it in a mail program, and save its text";

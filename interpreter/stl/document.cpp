@@ -100,7 +100,7 @@ std::string_view leading_mnemonic(std::string_view code) {
   const auto take = [&](auto condition) {
     while (end < code.size() && condition(code[end])) ++end;
   };
-  if (code.starts_with('=')) return code.substr(0, upper_case(code.substr(0, 3)) == "=I " ? 2 : 1);
+  if (code.starts_with('=')) return code.substr(0, same_in_capitals(code.substr(0, 3), "=I ") ? 2 : 1);
   if (!code.empty() && std::string_view("+-*/").find(code.front()) != std::string_view::npos) ++end;
   take([&](char c) { return is_letter(c) || (end > 0 && (is_digit(c) || c == '_')); });
   take([](char c) { return c == '<' || c == '>' || c == '='; });
@@ -286,7 +286,7 @@ class DocumentReader {
     const auto [first, last] = statements();
     std::vector<std::uint32_t> lines;
     for (auto i = readings_.begin(); first != readings_.end() && i != readings_.end(); ++i)
-      if ((i < first || i >= last || names_a_page(*i)) && i->verdict == Verdict::Prose &&
+      if (i->verdict == Verdict::Prose && (i < first || i >= last || names_a_page(*i)) &&
           (is_text(*i) || ends_a_sentence(*i) || (i < first && is_title(*i))) &&
           advice_on(*i).what.empty())  // NETZWERK has a message of its own
         lines.push_back(static_cast<std::uint32_t>(i - readings_.begin()) + 1);
@@ -328,8 +328,9 @@ class DocumentReader {
 
   /// `Network Comment`, which Micro/WIN prints below the title of a network that has no comment of its own.
   static bool is_words_about_network(std::string_view code) {
-    const auto words = split_words(code);
-    return words.size() > 1 && upper_case(words[0]) == "NETWORK" && std::ranges::all_of(words[1], is_letter);
+    if (!same_in_capitals(take_word(code), "NETWORK")) return false;
+    const std::string_view next = take_word(code);
+    return !next.empty() && std::ranges::all_of(next, is_letter);
   }
 
   LineReading first_look(std::string_view line) {

@@ -79,12 +79,15 @@ constexpr std::array kRoutinePhrases{
     RoutinePhrase{"中斷", Block::Kind::Interrupt},
 };
 
+constexpr ByteSet kBeginPhrases{"HPUSIR\xE4\xE5"};
+static_assert(std::ranges::all_of(kRoutinePhrases,
+                                  [](const RoutinePhrase& row) { return kBeginPhrases.has(row.words[0]); }));
+
 /// The phrase that a text begins with as a word; null for all others.
 const RoutinePhrase* routine_phrase(std::string_view text) {
+  if (text.empty() || !kBeginPhrases.has(capital(text[0]))) return nullptr;
   const auto begins = [text](const RoutinePhrase& row) {
-    const bool may =
-        !text.empty() && (text[0] == row.words[0] || (is_lower(text[0]) && text[0] - 'a' + 'A' == row.words[0]));
-    if (!may || upper_case(text.substr(0, row.words.size())) != row.words) return false;
+    if (!same_in_capitals(text.substr(0, row.words.size()), row.words)) return false;
     return row.words.size() == text.size() || !is_ascii(row.words) || !is_letter(text[row.words.size()]);
   };
   const auto row = std::ranges::find_if(kRoutinePhrases, begins);

@@ -165,22 +165,30 @@ std::string printable_lines(std::string_view text) {
   return shown;
 }
 
+std::string_view take_word(std::string_view& text, std::string_view signs) {
+  const auto separates = [signs](char c) {
+    return c == ' ' || c == '\t' || std::any_of(signs.begin(), signs.end(), [c](char sign) { return sign == c; });
+  };
+  const auto goes = [separates](char c) { return separates(c) || c == '\f' || c == '\r'; };
+  while (!text.empty() && goes(text.front())) text.remove_prefix(1);
+  while (!text.empty() && goes(text.back())) text.remove_suffix(1);
+  std::size_t end = 0;
+  while (end < text.size() && !separates(text[end])) ++end;
+  const std::string_view word = text.substr(0, end);
+  text.remove_prefix(end);
+  return word;
+}
+
 std::vector<std::string> split_words(std::string_view text) {
   std::vector<std::string> words;
-  while (!(text = trim(text)).empty()) {
-    const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
-    words.emplace_back(text.substr(0, end));
-    text.remove_prefix(end);
-  }
+  for (std::string_view word = take_word(text); !word.empty(); word = take_word(text)) words.emplace_back(word);
   return words;
 }
 
 std::string upper_case(std::string_view text) {
-  std::string upper(text);
-  for (char& c : upper) {
-    if (is_lower(c)) c = static_cast<char>(c - 'a' + 'A');
-  }
-  return upper;
+  std::string capitals(text);
+  for (char& c : capitals) c = capital(c);
+  return capitals;
 }
 
 std::string lower_case(std::string_view text) {
@@ -189,6 +197,10 @@ std::string lower_case(std::string_view text) {
     if (is_upper(c)) c = static_cast<char>(c - 'A' + 'a');
   }
   return lower;
+}
+
+bool same_in_capitals(std::string_view text, std::string_view capitals) {
+  return std::ranges::equal(text, capitals, {}, capital);
 }
 
 }  // namespace s7200::stl

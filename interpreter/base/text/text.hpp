@@ -1,6 +1,7 @@
 // Lines and characters of a UTF-8 text.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -85,6 +86,9 @@ std::string printable(std::string_view text);
 /// A text of several lines, made printable: keeps LF and CR LF.
 std::string printable_lines(std::string_view text);
 
+/// Takes the first word off a text: what stands between blanks and tabs, and between some signs, too. Empty: there is none.
+std::string_view take_word(std::string_view& text, std::string_view signs = {});
+
 /// The words between blanks and tabs.
 std::vector<std::string> split_words(std::string_view text);
 
@@ -92,10 +96,36 @@ std::vector<std::string> split_words(std::string_view text);
 std::string upper_case(std::string_view text);
 std::string lower_case(std::string_view text);
 
+/// Whether a text is upper_case() of another: `same_in_capitals(word, "NETWORK")`.
+bool same_in_capitals(std::string_view text, std::string_view capitals);
+
+/// A set of bytes that texts are searched for: std::string_view::find_first_of() calls memchr() for each byte of the text.
+class ByteSet {
+ public:
+  constexpr ByteSet() = default;
+  constexpr explicit ByteSet(std::string_view bytes) { add(bytes); }
+
+  constexpr void add(std::string_view bytes) {
+    for (const char c : bytes) has_[static_cast<unsigned char>(c)] = true;
+  }
+
+  constexpr bool has(char c) const { return has_[static_cast<unsigned char>(c)]; }
+  /// The place of the first of them in a text; npos if there is none.
+  constexpr std::size_t first_in(std::string_view text, std::size_t from = 0) const {
+    while (from < text.size() && !has(text[from])) ++from;
+    return from < text.size() ? from : text.npos;
+  }
+  constexpr bool any_in(std::string_view text) const { return first_in(text) != text.npos; }
+
+ private:
+  std::array<bool, 256> has_{};
+};
+
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
 inline bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
 inline bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
 inline bool is_letter(char c) { return is_upper(c) || is_lower(c); }
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\f'; }
+inline char capital(char c) { return is_lower(c) ? static_cast<char>(c - 'a' + 'A') : c; }
 
 }  // namespace s7200::stl

@@ -133,20 +133,19 @@ bool may_be_code(std::string_view code) {
                               [](char c) { return is_lower(c) || is_digit(c) || static_cast<unsigned char>(c) >= 0x80; });
 }
 
-bool is_network(std::string_view code) { return upper_case(trim(code).substr(0, 7)) == "NETWORK"; }
+bool is_network(std::string_view code) { return same_in_capitals(trim(code).substr(0, 7), "NETWORK"); }
 
 /// Whether what follows a semicolon is a statement or its operand, and no comment: `LD I0.0; A I0.1`, `MOVW 5; VW10`.
 bool goes_on_after_semicolon(std::string_view text) {
   const std::string_view first = text.substr(0, text.find_first_of("; \t"));
   return looks_like_statement(text) || text.starts_with('=') || text.find(';') != text.npos ||
-         std::ranges::none_of(first, is_lower) ||
-         (split_words(text).size() == 1 && looks_like_statement("LD " + std::string(text)));
+         std::ranges::none_of(first, is_lower) || (split_words(text).size() == 1 && look_like_operands(text));
 }
 
 /// Whether what follows a dash or a colon may be a statement or an operand: `LD I0.0 : A I0.1`, `MOVW 5 - VW10`.
 bool may_be_code_too(std::string_view text) {
   const std::string_view first = text.substr(0, text.find_first_of(" \t,"));
-  return looks_like_statement(text) || looks_like_statement("LD " + std::string(first)) || !has_letter(first);
+  return looks_like_statement(text) || look_like_operands(first) || !has_letter(first);
 }
 
 /// The comment that begins with a sign in a line.
@@ -188,7 +187,7 @@ bool is_comment_line(std::string_view line, const Sign& sign) {
   std::string_view words = text.substr(sign.sign.size());
   if (is_letter(sign.sign.front())) {  // but `REM I0.0` is a row of a table of symbols
     const std::string_view after = trim(words), first = after.substr(0, after.find_first_of(" \t"));
-    return (words.empty() || is_blank(words.front())) && !looks_like_statement("LD " + std::string(first));
+    return (words.empty() || is_blank(words.front())) && !look_like_operands(first);
   }
   words.remove_prefix(std::min(words.find_first_not_of(sign.sign.front()), words.size()));
   const bool apart = !words.empty() && is_blank(words.front());
@@ -203,7 +202,7 @@ bool is_comment_line(std::string_view line, const Sign& sign) {
 bool begins_row_of_list(std::string_view line) {
   const std::string_view text = trim(line);
   const std::vector<std::string> words = split_words(text);
-  return text.starts_with("* ") && words.size() > 2 && looks_like_statement("LD " + words[2]);
+  return text.starts_with("* ") && words.size() > 2 && look_like_operands(words[2]);
 }
 
 /// Whether a line may be of a drawing or a table. A single stroke after code may begin a comment.
@@ -264,7 +263,7 @@ std::optional<Found> comment_in_brackets(std::string_view line) {
   const std::size_t word = code.find_first_of(" \t,;");
   if (word != code.npos && !is_blank(code[word])) return {};  // a row of a table
   const bool sure = looks_like_statement(code) && std::ranges::any_of(last, is_digit) && may_be_code(code);
-  if (!has_letter(words) || (!sure && split_words(words).size() == 1 && looks_like_statement("LD " + std::string(words))) ||
+  if (!has_letter(words) || (!sure && split_words(words).size() == 1 && look_like_operands(words)) ||
       code.find_first_of("'\"") != code.npos)
     return {};
   return sure || code.empty() || may_be_code(code) ? std::optional(Found{begin, sure}) : std::nullopt;
@@ -288,11 +287,10 @@ void rewrite_brackets_at_end(std::vector<std::string>& lines, std::vector<bool>&
 
 bool may_have_foreign_comment(std::string_view line) {
   line = code_of(line);
-  constexpr std::string_view kFirst = ";#'*-!%\\:{([<>|\xEF";
+  static constexpr ByteSet kFirst{";#'*-!%\\:{([<>|\xEF"};
   const bool rem = line.find("REM") != line.npos || line.find("rem") != line.npos || line.find("Rem") != line.npos;
   if (rem) return true;
-  const std::size_t at = line.find_first_of(kFirst);
-  if (at == line.npos) return false;
+  if (!kFirst.any_in(line)) return false;
   const auto has = [&](std::string_view sign) { return line.find(sign) != line.npos; };
   return has(";") || has("(*") || has("/*") || has("# ") || has("-- ") || has("' ") || has("! ") || has("%% ") ||
          has("\\\\ ") || has("* ") || has("% ") || has(" : ") || has(" - ") || has(" | ") || has("-> ") || has("=> ") ||
@@ -303,8 +301,11 @@ std::vector<bool> rewrite_foreign_comments(std::vector<std::string>& lines) {
   const bool fenced = std::ranges::any_of(lines, is_fence);
   std::vector<bool> changed = BracketReader(lines).run();
   const bool any_statement = std::ranges::any_of(lines, looks_like_statement);
+  ByteSet bytes;
+  for (const std::string& line : lines) bytes.add(line);
   for (const Sign& sign : kLineSigns)
-    if (!(fenced && sign.sign == "#")) rewrite_after_sign(lines, sign, any_statement, changed);
+    if (bytes.has(sign.sign.front()) && bytes.has(sign.sign.back()) && !(fenced && sign.sign == "#"))
+      rewrite_after_sign(lines, sign, any_statement, changed);
   rewrite_brackets_at_end(lines, changed);
   return std::ranges::find(changed, true) == changed.end() ? std::vector<bool>{} : changed;
 }

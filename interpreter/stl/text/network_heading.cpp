@@ -74,8 +74,10 @@ std::size_t network_word(std::string_view text) {  // beyond ASCII as they are w
   static_assert(std::ranges::all_of(kAscii, kMayBegin) && std::ranges::all_of(kBeyond, kMayBegin));
   if (!kMayBegin(text)) return 0;
   const auto letters = static_cast<std::size_t>(std::ranges::find_if_not(text, is_letter) - text.begin());
-  const std::string word = letters > 0 && letters <= 8 ? upper_case(text.substr(0, letters)) : "";
-  if (!word.empty() && std::ranges::find(kAscii, word) != std::end(kAscii)) return letters;
+  const std::string_view written = text.substr(0, letters);
+  if (std::ranges::any_of(kAscii, [written](std::string_view word) { return same_in_capitals(written, word); }))
+    return letters;
+  if (letters == text.size() || static_cast<unsigned char>(text[letters]) < 0x80) return 0;
   const auto* const beyond = std::ranges::find_if(kBeyond, [text](std::string_view each) { return text.starts_with(each); });
   return beyond == std::end(kBeyond) ? 0 : beyond->size();
 }
@@ -89,7 +91,7 @@ std::optional<NetworkHeading> network_heading(std::string_view line) {
   const std::size_t word = network_word(rest);
   if (word == 0) return std::nullopt;
   const std::string_view written = rest.substr(0, word);
-  bool own = upper_case(written) == "NETWORK" && frame.bytes == 0;
+  bool own = same_in_capitals(written, "NETWORK") && frame.bytes == 0;
   rest.remove_prefix(word);
   const auto skip_blanks = [&] { rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size())); };
   skip_blanks();

@@ -391,12 +391,20 @@ class LineWriter {
 };
 
 /// Bytes of which something else may be read, if they are not in a comment.
-constexpr std::array<bool, 256> kMayBeDifferent = [] {
-  std::array<bool, 256> bytes{};
-  for (const char c : {'`', '%', '~', '<', '&', '[', '\\', '\x0B'}) bytes[static_cast<unsigned char>(c)] = true;
-  std::fill(bytes.begin() + 0x80, bytes.end(), true);
-  return bytes;
-}();
+constexpr ByteSet kMayBeDifferent{"`%~<&[\\\x0B"};
+
+constexpr std::string_view kBetweenWords = ",;";
+
+/// A few letters of areas and sizes, and digits: `VW10`, `&VB0`, `i0.0`.
+bool may_be_address(std::string_view word) {
+  constexpr std::string_view kLetters = "IQVMSTCALEHBWDX";
+  constexpr std::size_t kMostLetters = 3;
+  const std::string_view area = word.substr(std::min(word.find_first_not_of("&*"), word.size()));
+  std::size_t letters = 0;
+  while (letters < area.size() && kLetters.find(capital(area[letters])) != kLetters.npos) ++letters;
+  return letters > 0 && letters <= kMostLetters && letters < area.size() && is_digit(area[letters]) &&
+         area.find_first_not_of("0123456789.", letters) == area.npos;
+}
 
 bool has_line_end_of_word_processor(std::string_view text) {
   const auto has = [text](std::string_view end) { return text.find(end) != std::string_view::npos; };
@@ -449,6 +457,13 @@ std::vector<std::string> words_of_code(std::string_view line) {
   return split_words(code);
 }
 
+FirstWord first_word_of_code(std::string_view line) {
+  std::string_view rest = code_of(line);
+  FirstWord first{upper_case(take_word(rest, ","))};
+  while (!take_word(rest, ",").empty()) ++first.others;
+  return first;
+}
+
 bool has_html(std::string_view line) {
   const std::string_view code = code_of(line);
   for (std::size_t at = code.find_first_of("<&"); at != std::string_view::npos; at = code.find_first_of("<&", at + 1))
@@ -475,22 +490,23 @@ Change change_of_fence(std::string_view line) {
 }
 
 bool looks_like_statement(std::string_view line) {
-  constexpr std::size_t kLongestMnemonic = 8, kMostWords = 6;
-  std::string text(line);
-  text.erase(std::min(text.find("//"), text.size()));
-  std::ranges::replace_if(
-      text, [](char c) { return c == ',' || c == ';'; }, ' ');
-  const std::vector<std::string> written = split_words(text);
-  if (written.size() < 2 || written.size() > kMostWords || written[0].size() > kLongestMnemonic) return false;
-  if (written[0].starts_with('|')) return false;  // a row of a table
-  return std::any_of(std::next(written.begin()), written.end(), [](const std::string& word) {
-    constexpr std::string_view kLetters = "IQVMSTCALEHBWDX";
-    const std::string upper = upper_case(word);
-    const std::size_t letters = std::min(upper.find_first_not_of("&*"), upper.size());
-    const std::size_t digits = std::min(upper.find_first_not_of(kLetters, letters), upper.size());
-    return digits > letters && digits < upper.size() && is_digit(upper[digits]) && digits - letters <= 3 &&
-           upper.find_first_not_of("0123456789.", digits) == std::string::npos;
-  });
+  constexpr std::size_t kLongestMnemonic = 8;
+  std::string_view rest = code_of(line);
+  const std::string_view mnemonic = take_word(rest, kBetweenWords);
+  const bool row_of_table = mnemonic.starts_with('|');
+  return mnemonic.size() <= kLongestMnemonic && !row_of_table && look_like_operands(rest);
+}
+
+bool look_like_operands(std::string_view text) {
+  constexpr std::size_t kMost = 5;
+  text = code_of(text);
+  bool any_address = false;
+  std::size_t words = 0;
+  for (std::string_view word = take_word(text, kBetweenWords); !word.empty(); word = take_word(text, kBetweenWords)) {
+    if (++words > kMost) return false;
+    any_address = any_address || may_be_address(word);
+  }
+  return any_address;
 }
 
 std::vector<WrittenLine> written_lines(std::string_view line, Part part, bool html) {
@@ -502,7 +518,7 @@ std::vector<WrittenLine> written_lines(std::string_view line, Part part, bool ht
 bool may_be_different(std::string_view line) {
   const std::string_view code = code_of(line), comment = line.substr(code.size());
   const bool quoted = code.find_first_of("'\"") != std::string_view::npos;  // the slashes may be part of a text
-  const auto may_be = [](char c) { return kMayBeDifferent[static_cast<unsigned char>(c)]; };
+  const auto may_be = [](char c) { return kMayBeDifferent.has(c) || static_cast<unsigned char>(c) >= 0x80; };
   if (std::ranges::any_of(quoted ? line : code, may_be))
     return !is_ascii(line) || line.find_first_of("`%\x0B") != std::string_view::npos || is_fence(line) || has_html(line) ||
            has_forum_mark_or_escape(line);

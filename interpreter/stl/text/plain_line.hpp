@@ -71,6 +71,13 @@ std::string_view code_of(std::string_view line);
 /// Its words in capitals; a comma is a blank.
 std::vector<std::string> words_of_code(std::string_view line);
 
+/// The first of these words, and how many follow it: `MOVW` and 2. No word: the line has no code.
+struct FirstWord {
+  std::string word{};
+  std::size_t others = 0;
+};
+FirstWord first_word_of_code(std::string_view line);
+
 /// Whether a line is one of the marks around code: those of Markdown, of forums, `[code]`, `[code=stl]`, `[/code]`, of Jira,
 /// `{code}`, of Org, `#+BEGIN_SRC`, and of LaTeX, `\begin{verbatim}`.
 bool is_fence(std::string_view line);
@@ -81,6 +88,9 @@ Change change_of_fence(std::string_view line);
 /// Whether a line is a short word and operands one of which is an address: `LD I0.0`, `movb 1, vb0`. Good enough to tell a
 /// program from text.
 bool looks_like_statement(std::string_view line);
+
+/// Whether a text may be the operands of a statement: a few words one of which is an address.
+bool look_like_operands(std::string_view text);
 
 /// A line as it is read, with the column that each of its characters had.
 struct WrittenLine {

@@ -119,7 +119,7 @@ std::size_t list_mark(std::string_view line) {
   return marked && (line[from] == '-' || line[from] == '*') ? from + 2 : 0;
 }
 
-bool begins_with_network(std::string_view line) { return upper_case(trim(line).substr(0, 7)) == "NETWORK"; }
+bool begins_with_network(std::string_view line) { return same_in_capitals(trim(line).substr(0, 7), "NETWORK"); }
 
 bool stands_without_mark(std::string_view line) {
   const std::string_view code = trim(code_of(line));
@@ -226,7 +226,7 @@ constexpr std::size_t kLongestStatement = 300;
 
 /// `Network Comment`
 bool is_network_without_number(std::string_view code) {
-  return upper_case(code.substr(0, 8)) == "NETWORK " && code.size() > 8 && is_letter(code[8]);
+  return same_in_capitals(code.substr(0, 8), "NETWORK ") && code.size() > 8 && is_letter(code[8]);
 }
 
 /// `Motor start`, as people write it below the heading of a network: words in small letters, none of which is an operand.
@@ -305,7 +305,7 @@ bool names_instructions(std::string_view line, const std::vector<Part>& cells) {
   bool any = false;
   for (const Part& cell : cells) {
     const std::string_view text = text_of(line, cell);
-    if (looks_like_statement(fmt::format("LD {}", text))) return false;
+    if (look_like_operands(text)) return false;
     any |= std::ranges::find(kNames, upper_case(text)) != std::end(kNames);
   }
   return any;
@@ -406,7 +406,7 @@ std::size_t semicolon_between_operands(std::string_view line) {
   const std::size_t sign = code.find(';');
   if (sign == code.npos || code.find(',') != code.npos || split_words(code.substr(0, sign)).size() != 2) return code.npos;
   const std::string_view second = trim(code.substr(sign + 1));
-  return looks_like_statement(fmt::format("LD {}", second)) && split_words(second).size() == 1 ? sign : code.npos;
+  return look_like_operands(second) && split_words(second).size() == 1 ? sign : code.npos;
 }
 
 bool is_only_letter(std::string_view line) {
@@ -437,10 +437,14 @@ std::vector<Part> gaps_in_addresses(std::string_view line) {
       ++at;
       continue;
     }
+    const char next = to < code.size() ? code[to] : '\0';
+    if (!is_digit(next) && next != '.') {
+      at = to;
+      continue;
+    }
     std::size_t first = at;
     while (first > begin && (is_letter(code[first - 1]) || is_digit(code[first - 1]) || code[first - 1] == '.')) --first;
     const std::string word = upper_case(code.substr(first, at - first));
-    const char next = to < code.size() ? code[to] : '\0';
     const bool after_area = is_digit(next) && is_area(word);
     const bool begins = !word.empty() && (is_letter(word.front()) || (!gaps.empty() && gaps.back().to == first));
     const bool has_area = begins && is_digit(word.back() == '.' ? '0' : word.back());
@@ -611,7 +615,7 @@ class PageReader {
       ++in_table;
       has_comment |= row.has_comment;
       has_coil |= row.mnemonic == "=";
-      instructions += is_instruction_ && (upper_case(row.mnemonic) == "NETWORK" || is_statement(read[i].text)) ? 1U : 0U;
+      instructions += is_instruction_ && (same_in_capitals(row.mnemonic, "NETWORK") || is_statement(read[i].text)) ? 1U : 0U;
       if (!looks_like_statement(read[i].text)) continue;
       ++statements;
       const std::string word = split_words(read[i].text).front();
@@ -629,20 +633,19 @@ class PageReader {
 
   /// Whether a line is an instruction with as many operands as it takes.
   bool takes_as_written(std::string_view line) const {
-    const std::vector<std::string> words = words_of_code(line.substr(0, kLongestStatement));
-    return !words.empty() && is_instruction_(words[0], words.size() - 1);
+    const auto [word, others] = first_word_of_code(line.substr(0, kLongestStatement));
+    return !word.empty() && is_instruction_(word, others);
   }
 
   /// Whether a text can be read as an instruction with its operands.
   bool is_statement(std::string_view text) const {
     constexpr std::size_t kLongestOfStack = 5;
-    const std::vector<std::string> words = words_of_code(text.substr(0, kLongestStatement));
-    if (words.empty()) return false;
+    const auto [word, others] = first_word_of_code(text.substr(0, kLongestStatement));
+    if (word.empty()) return false;
     if (!is_instruction_)
-      return looks_like_statement(text) ||
-             (words.size() == 1 && words[0].size() <= kLongestOfStack && trim(code_of(text)) == words[0]);
-    if (is_instruction_(words[0], words.size() - 1)) return true;
-    return looks_like_statement(text) && is_mnemonic(is_instruction_, words[0]);
+      return looks_like_statement(text) || (others == 0 && word.size() <= kLongestOfStack && trim(code_of(text)) == word);
+    if (is_instruction_(word, others)) return true;
+    return looks_like_statement(text) && is_mnemonic(is_instruction_, word);
   }
 
   /// Whether a line that may be a heading or the beginning of a sentence is a heading: a statement follows, or it has the
@@ -670,14 +673,17 @@ class PageReader {
   }
 
   void write_network_headings() {
-    if (std::ranges::none_of(rows_, [this](const Row& row) { return is_statement(row.text); })) return;
+    const auto may_be_heading = [](const Row& row) { return begins_with_network(row.text) || network_heading(row.text); };
+    const auto first = static_cast<std::size_t>(std::ranges::find_if(rows_, may_be_heading) - rows_.begin());
+    const auto says_statement = [this](const Row& row) { return is_statement(row.text); };
+    if (first == rows_.size() || std::ranges::none_of(rows_, says_statement)) return;
     std::uint32_t last = 0;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
+    for (std::size_t i = first; i < rows_.size(); ++i) {
       Row& row = rows_[i];
       const auto heading = network_heading(row.text);
       if (!heading && !begins_with_network(row.text)) continue;
       const std::vector<std::string> words = heading ? std::vector<std::string>{} : split_words(code_of(row.text));
-      const bool own = words.size() == 2 && upper_case(words[0]) == "NETWORK";
+      const bool own = words.size() == 2 && same_in_capitals(words[0], "NETWORK");
       if (!heading && !own) continue;
       const std::string_view digits = heading ? heading->number : std::string_view(words[1]);
       std::uint32_t number = 0;
@@ -696,14 +702,16 @@ class PageReader {
       const std::string_view code = trim(code_of(row.text));
       return std::ranges::any_of(code.substr(0, code.find_first_of(" \t")), is_lower) && is_statement(row.text);
     };
-    if (!is_instruction_ || std::ranges::any_of(rows_, in_small_letters)) return;
+    if (!is_instruction_ || std::ranges::none_of(rows_, begins_with_network, &Row::text) ||
+        std::ranges::any_of(rows_, in_small_letters))
+      return;
     bool after_heading = false;
     for (Row& row : rows_) {
       const std::string_view code = trim(code_of(row.text));
       if (code.empty()) continue;
       if (begins_with_network(code)) {
         const std::vector<std::string> words = split_words(code);
-        after_heading = words.size() == 2 && upper_case(words[0]) == "NETWORK" && is_digit(words[1][0]) &&
+        after_heading = words.size() == 2 && same_in_capitals(words[0], "NETWORK") && is_digit(words[1][0]) &&
                         trim(row.text).size() == code.size();
         continue;
       }
@@ -723,8 +731,7 @@ class PageReader {
     for (Part gap = gap_after_operand(code, 0); gap.to < code.size(); gap = gap_after_operand(code, gap.to)) {
       const std::string_view text = code.substr(gap.to), first = text.substr(0, text.find_first_of(" \t"));
       const bool is_word = is_letter(text.front()) || static_cast<unsigned char>(text.front()) >= 0x80;
-      if (!is_word || code[gap.from - 1] == ',' || first.ends_with(',') ||
-          looks_like_statement(fmt::format("LD {}", first)) || is_statement(text))
+      if (!is_word || code[gap.from - 1] == ',' || first.ends_with(',') || look_like_operands(first) || is_statement(text))
         continue;
       const std::string_view statement = code.substr(0, gap.from);
       const bool apart = gap.to - gap.from > 1 || code[gap.from] == '\t';  // `A page of text` is no statement
@@ -795,7 +802,7 @@ class PageReader {
     bool inside = false;
     for (Row& row : rows_) {
       if (constexpr std::string_view kComment = "NETWORK COMMENT";
-          upper_case(trim(row.text).substr(0, kComment.size())) == kComment) {
+          same_in_capitals(trim(row.text).substr(0, kComment.size()), kComment)) {
         const std::string_view rest = trim(row.text).substr(kComment.size());
         const std::string_view words = trim(rest.substr(rest.starts_with(':') ? 1 : 0));
         if (words.empty())
@@ -806,7 +813,7 @@ class PageReader {
       const bool head = is_head_of_information(row.text);
       if (!head && !inside) continue;
       const std::vector<std::string> words = split_words(row.text);
-      inside = head || (words.size() >= 2 && !begins_with_network(row.text) && looks_like_statement("LD " + words[1]));
+      inside = head || (words.size() >= 2 && !begins_with_network(row.text) && look_like_operands(words[1]));
       if (!inside) continue;
       if (known.insert(head ? std::string() : words[0] + ' ' + words[1]).second) row.symbol = row.text;
       row.leave_out(kInformation);

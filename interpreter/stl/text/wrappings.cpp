@@ -131,7 +131,8 @@ bool has_statement(const std::vector<LinePart>& parts, const std::vector<std::st
 }  // namespace
 
 bool may_open_wrapping(std::string_view line) {
-  if (line.find_first_of("\"'<`|") == line.npos) return false;
+  static constexpr ByteSet kBegin{"\"'<`|"};
+  if (!kBegin.any_in(line)) return false;
   return opening_in(line, false).end != line.npos;
 }
 
