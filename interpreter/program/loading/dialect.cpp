@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "interpreter/base/text/among.hpp"
@@ -52,9 +53,9 @@ CodeLine code_line(std::string_view line) {
   result.semicolon = code.ends_with(';');
   if (result.semicolon) code = stl::trim(code.substr(0, code.size() - 1));
   result.text = stl::upper_case(code);
-  std::string apart = result.text;
-  std::ranges::replace(apart, ',', ' ');
-  result.words = stl::split_words(apart);
+  std::string_view rest = result.text;
+  for (auto word = stl::take_word(rest, ","); !word.empty(); word = stl::take_word(rest, ","))
+    result.words.emplace_back(word);
   return result;
 }
 
@@ -304,6 +305,16 @@ constexpr std::string_view kShared[] = {"LD",   "LDN",  "LDI", "A",   "AN",   "O
                                         "SLB",  "PLS",  "SI",  "RI",  "SQRT", "SIN", "COS", "TAN", "LN",  "EXP", "PID"};
 // clang-format on
 
+/// kFirstWords by their words.
+const auto& first_words() {
+  static const std::unordered_multimap<std::string_view, const FirstWord*> kRows = [] {
+    std::unordered_multimap<std::string_view, const FirstWord*> rows;
+    for (const FirstWord& row : kFirstWords) rows.emplace(row.word, &row);
+    return rows;
+  }();
+  return kRows;
+}
+
 bool is_own(const CodeLine& line) {
   const Instruction* instruction = find_instruction(line.word(0));
   return instruction && instruction->rules().size() + 1 == line.words.size() &&
@@ -339,8 +350,10 @@ class Judge {
     for (const DialectSign& sign : kSignsWithoutLoad)
       if (sign.shows(line)) without_load_.add(sign.weight, at);
     const auto operands = static_cast<int>(line.words.size()) - 1;
-    for (const FirstWord& row : kFirstWords)
-      if (row.word == line.word(0) && (row.operands < 0 || row.operands == operands)) count(row.dialect, row.weight, at);
+    const auto [first, last] = first_words().equal_range(line.word(0));
+    for (auto each = first; each != last; ++each)
+      if (const FirstWord& row = *each->second; row.operands < 0 || row.operands == operands)
+        count(row.dialect, row.weight, at);
   }
 
   std::optional<stl::Diagnostic> verdict() {

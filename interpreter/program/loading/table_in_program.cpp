@@ -15,6 +15,7 @@ namespace s7200 {
 namespace {
 
 using stl::IsInstruction;
+using stl::plain::first_word_of_code;
 using stl::plain::words_of_code;
 
 enum class LineKind : std::uint8_t { Blank, Statement, Head, Row, Other };
@@ -34,7 +35,8 @@ bool is_title_of_table(std::string_view line) {
 }
 
 /// `TITLE=Filling, line 2`
-bool is_title(const std::vector<std::string>& words) {
+bool is_title(std::string_view line) {
+  const std::vector<std::string> words = words_of_code(line);
   return words[0].starts_with("TITLE=") || (words.size() > 1 && words[0] == "TITLE" && words[1].starts_with('='));
 }
 
@@ -48,11 +50,9 @@ std::vector<bool> within_blocks(const std::vector<std::string>& lines) {
   std::optional<std::size_t> head;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (lines[i].find('_') == std::string::npos) continue;
-    const std::vector<std::string> words = words_of_code(lines[i]);
-    if (words.empty()) continue;
-    const std::string_view word = words.front();
+    const std::string word = first_word_of_code(lines[i]).word;
     if (is_keyword(word)) head = i;
-    if (head && word.starts_with("END_") && is_keyword(word.substr(4))) {
+    if (head && word.starts_with("END_") && is_keyword(std::string_view(word).substr(4))) {
       std::fill(within.begin() + static_cast<std::ptrdiff_t>(*head), within.begin() + static_cast<std::ptrdiff_t>(i), true);
       head.reset();
     }
@@ -67,19 +67,15 @@ class TableFinder {
         is_instruction_(is_instruction),
         in_table_(lines_.size(), false),
         above_table_(lines_.size(), false) {
-    const std::vector<bool> within = within_blocks(lines_);
-    for (std::size_t i = 0; i < lines_.size(); ++i) {
-      read_.push_back(read(lines_[i]));
-      const bool in_table = read_.back().kind == LineKind::Head || read_.back().kind == LineKind::Row;
-      if (within[i] && in_table) read_.back() = {};
-    }
+    for (const std::string& line : lines_) read_.push_back({kind_of(line)});
   }
 
   std::optional<ProgramWithTable> run() {
+    if (std::ranges::find(read_, LineKind::Statement, &ReadLine::kind) == read_.end()) return {};
+    read_rows();
     for (std::size_t i = 0; i < read_.size(); ++i)
       if (read_[i].kind == LineKind::Head || read_[i].kind == LineKind::Row) i = take_table(i);
-    const bool any = std::ranges::find(in_table_, true) != in_table_.end();
-    if (!any || std::ranges::find(read_, LineKind::Statement, &ReadLine::kind) == read_.end()) return {};
+    if (std::ranges::find(in_table_, true) == in_table_.end()) return {};
     ProgramWithTable result;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       if (!above_table_[i]) (in_table_[i] ? result.table : result.program) += lines_[i];
@@ -90,13 +86,25 @@ class TableFinder {
   }
 
  private:
-  ReadLine read(std::string_view line) const {
+  /// The kind of a line, but for those of a table.
+  LineKind kind_of(std::string_view line) const {
+    const auto [word, others] = first_word_of_code(line);
+    if (word.empty() || line.find_first_not_of("-=+|: \t") == line.npos) return LineKind::Blank;
+    return word == "NETWORK" || is_instruction_(word, others) ? LineKind::Statement : LineKind::Other;
+  }
+
+  /// Looks for lines of a table. In a block of an export there are none.
+  void read_rows() {
+    const std::vector<bool> within = within_blocks(lines_);
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+      if (read_[i].kind == LineKind::Other && !within[i]) read_[i] = read_row(lines_[i]);
+  }
+
+  ReadLine read_row(std::string_view line) const {
     constexpr std::size_t kLongestRow = 300;
-    const std::vector<std::string> words = words_of_code(line);
-    if (words.empty() || line.find_first_not_of("-=+|: \t") == line.npos) return {LineKind::Blank};
-    if (words[0] == "NETWORK" || is_instruction_(words[0], words.size() - 1)) return {LineKind::Statement};
-    if (line.size() > kLongestRow || words[0].find_first_not_of("\"'") == std::string::npos) return {};
-    const bool has_cells = words.size() > 1 || line.find_first_of(";|") != line.npos;
+    const auto [word, others] = first_word_of_code(line);
+    if (line.size() > kLongestRow || word.find_first_not_of("\"'") == std::string::npos) return {};
+    const bool has_cells = others > 0 || line.find_first_of(";|") != line.npos;
     if (has_cells && stl::is_head_of_symbols(line)) return {LineKind::Head};
     const char begin = stl::trim(line).front();
     const bool begins = stl::is_letter(begin) || std::string_view("_\"|%").find(begin) != std::string_view::npos ||
@@ -108,7 +116,7 @@ class TableFinder {
     const bool is_address = row.value && !std::holds_alternative<stl::Integer>(*row.value);
     if (!is_address && line.find('=') == line.npos) return {};  // `In network 1`
     std::string name = stl::upper_case(row.name);
-    if (is_title(words) && name != "TITLE") return {};
+    if (name != "TITLE" && is_title(line)) return {};
     // A mnemonic with operands, so that the address may be one of them: `LD: I0.0`, `LD I0.0 I0.1`, but not `STOP I0.0`.
     return stl::is_mnemonic(is_instruction_, name, 1) ? ReadLine{} : ReadLine{LineKind::Row, std::move(name)};
   }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -88,12 +89,8 @@ constexpr std::array<std::string_view, 8> kFlags{"TRUE", "FALSE", "YES", "NO", "
 
 /// Whether a text is one of some words, which are in capitals, however its ASCII letters are written.
 bool is_in_any_case(std::span<const std::string_view> words, std::string_view text) {
-  const auto same = [](char written, char capital) {
-    return (is_lower(written) ? written - 'a' + 'A' : written) == capital;
-  };
-  return std::ranges::any_of(words, [&](std::string_view word) {
-    return word.size() == text.size() && std::equal(text.begin(), text.end(), word.begin(), same);
-  });
+  return std::ranges::any_of(
+      words, [text](std::string_view word) { return word.size() == text.size() && same_in_capitals(text, word); });
 }
 
 bool is_format(std::string_view text) { return is_in_any_case(kFormats, text); }
@@ -136,14 +133,32 @@ bool has_any(std::span<const std::string_view> words, std::string_view capitals)
   return std::ranges::any_of(words, [capitals](std::string_view word) { return capitals.find(word) != capitals.npos; });
 }
 
+/// Whether a line may be a row of headings of symbols: a quick answer for nearly all lines.
+bool may_head_symbols(std::string_view line) {
+  const std::string capitals = heading_of(line);
+  return has_any(kAddressHeadings, capitals) && has_any(kNameHeadings, capitals);
+}
+
+/// What a heading says of its column.
+enum class HeadedColumn : std::uint8_t { Name, Address, Format, Comment };
+
 /// Asterisks and colons around a heading are left out.
-bool is_one_of(std::span<const std::string_view> headings, std::string_view text) {
+std::optional<HeadedColumn> column_named(std::string_view text) {
+  static const std::unordered_map<std::string_view, HeadedColumn> kHeadings = [] {
+    std::unordered_map<std::string_view, HeadedColumn> headings;
+    for (const std::string_view word : kNameHeadings) headings.emplace(word, HeadedColumn::Name);
+    for (const std::string_view word : kAddressHeadings) headings.emplace(word, HeadedColumn::Address);
+    for (const std::string_view word : kFormatHeadings) headings.emplace(word, HeadedColumn::Format);
+    for (const std::string_view word : kCommentHeadings) headings.emplace(word, HeadedColumn::Comment);
+    return headings;
+  }();
   constexpr std::size_t kLongestHeading = 40;
   constexpr std::string_view kMarks = " *:_";
-  if (text.size() > kLongestHeading) return false;
+  if (text.size() > kLongestHeading) return std::nullopt;
   text.remove_prefix(std::min(text.find_first_not_of(kMarks), text.size()));
   text = text.substr(0, text.find_last_not_of(kMarks) + 1);
-  return is_ascii(text) ? is_in_any_case(headings, text) : std::ranges::find(headings, heading_of(text)) != headings.end();
+  const auto row = kHeadings.find(heading_of(text));
+  return row == kHeadings.end() ? std::nullopt : std::optional(row->second);
 }
 
 // --- rows and cells ---
@@ -224,8 +239,8 @@ std::size_t place_of_address(const std::vector<std::string_view>& words) {
 /// The headings of name and address among the parts of a row, of which one begins it or follows a number, and what follows
 /// them; otherwise nothing.
 Cells headings_among(const std::vector<std::string_view>& parts) {
-  const auto name = std::ranges::find_if(parts, [](auto part) { return is_one_of(kNameHeadings, part); });
-  const auto address = std::ranges::find_if(parts, [](auto part) { return is_one_of(kAddressHeadings, part); });
+  const auto name = std::ranges::find(parts, HeadedColumn::Name, column_named);
+  const auto address = name == parts.end() ? name : std::ranges::find(parts, HeadedColumn::Address, column_named);
   if (name == parts.end() || address == parts.end() || std::min(name, address) - parts.begin() > 1) return {};
   Cells cells{cell_of(*name), cell_of(*address)};
   std::transform(std::next(std::max(name, address)), parts.end(), std::back_inserter(cells), cell_of);
@@ -234,7 +249,7 @@ Cells headings_among(const std::vector<std::string_view>& parts) {
 
 /// Whether a word is a sign between a name and its address: `->`, `=>`, `AT`
 bool is_sign(std::string_view word) {
-  return upper_case(word) == "AT" || word.find_first_not_of("-=>:") == std::string_view::npos;
+  return same_in_capitals(word, "AT") || word.find_first_not_of("-=>:") == std::string_view::npos;
 }
 
 /// Name, address, and what follows them, wherever the row has the address; nothing if it has none. Blanks may be part of a
@@ -328,9 +343,10 @@ struct Columns {
 std::optional<Columns> headings(const Cells& cells) {
   std::optional<std::size_t> name, address, comment;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (!name && is_one_of(kNameHeadings, cells[i].text)) name = i;
-    if (!address && is_one_of(kAddressHeadings, cells[i].text)) address = i;
-    if (!comment && is_one_of(kCommentHeadings, cells[i].text)) comment = i;
+    const auto found = column_named(cells[i].text);
+    if (!name && found == HeadedColumn::Name) name = i;
+    if (!address && found == HeadedColumn::Address) address = i;
+    if (!comment && found == HeadedColumn::Comment) comment = i;
   }
   if (!name || !address) return std::nullopt;
   const std::size_t first = comment.value_or(cells.size());
@@ -353,20 +369,21 @@ std::optional<Columns> columns_of(const Cells& cells) {
   return std::nullopt;
 }
 
-/// The separator that makes the most lines rows of a table; tabs or commas if none does.
-template <typename IsRow>
-Separator separator_of(std::span<const std::string_view> lines, const IsRow& is_row) {
+/// The separator that makes the most lines rows of a table; tabs or commas if none does. A row of a table has two cells.
+template <typename MayBeRow, typename IsRow>
+Separator separator_of(std::span<const std::string_view> lines, const MayBeRow& may_be_row, const IsRow& is_row) {
   using enum Separator;
-  const auto occurs = [&](Separator separator) {
-    return std::ranges::any_of(
-        lines, [&](std::string_view line) { return line.find(static_cast<char>(separator)) != std::string_view::npos; });
+  const auto has = [](std::string_view line, Separator separator) {
+    return separator == Blanks || line.find(static_cast<char>(separator)) != line.npos;
   };
-  Separator found = occurs(Tab) ? Tab : Comma;
+  std::vector<std::string_view> candidates;
+  std::ranges::copy_if(lines, std::back_inserter(candidates), may_be_row);
+  Separator found = std::ranges::any_of(lines, [has](std::string_view line) { return has(line, Tab); }) ? Tab : Comma;
   std::ptrdiff_t most = 0;
   for (const Separator separator : {Tab, Semicolon, Comma, Bar, Equals, Colon, Blanks}) {
-    if (separator != Blanks && !occurs(separator)) continue;
-    const auto rows =
-        std::ranges::count_if(lines, [&](std::string_view line) { return is_row(cells_of(line, separator), separator); });
+    const auto rows = std::ranges::count_if(candidates, [&](std::string_view line) {
+      return has(line, separator) && is_row(cells_of(line, separator), separator);
+    });
     if (rows <= most) continue;
     most = rows;
     found = separator;
@@ -375,7 +392,10 @@ Separator separator_of(std::span<const std::string_view> lines, const IsRow& is_
 }
 
 Separator separator_of_symbols(std::span<const std::string_view> lines) {
-  return separator_of(lines, [](const Cells& cells, Separator) { return headings(cells) || columns_of(cells); });
+  const auto may_be_row = [](std::string_view line) {
+    return line.find_first_of("0123456789'") != line.npos || may_head_symbols(line);
+  };
+  return separator_of(lines, may_be_row, [](const Cells& cells, Separator) { return headings(cells) || columns_of(cells); });
 }
 
 class SymbolTableReader {
@@ -560,9 +580,8 @@ bool is_symbol_table(std::string_view text, const std::function<bool(std::string
 
 bool is_head_of_symbols(std::string_view line) {
   using enum Separator;
-  const std::string capitals = heading_of(line);
-  if (!has_any(kAddressHeadings, capitals) || !has_any(kNameHeadings, capitals)) return false;
-  return std::ranges::any_of(std::array{Tab, Semicolon, Comma, Bar, Blanks},
+  return may_head_symbols(line) &&
+         std::ranges::any_of(std::array{Tab, Semicolon, Comma, Bar, Blanks},
                              [&](Separator separator) { return headings(cells_of(line, separator)).has_value(); });
 }
 
@@ -574,10 +593,10 @@ ParseResult read_symbol_table(std::string_view text, std::string name) {
 
 bool is_status_chart(std::string_view text) {
   const auto has_chart_headings = [](const Cells& cells) {
-    const auto has = [&](std::span<const std::string_view> words) {
-      return std::ranges::any_of(cells, [&](const Cell& c) { return is_one_of(words, c.text); });
+    const auto has = [&](HeadedColumn kind) {
+      return std::ranges::any_of(cells, [kind](const Cell& c) { return column_named(c.text) == kind; });
     };
-    return has(kFormatHeadings) && (has(kAddressHeadings) || has(kNameHeadings));
+    return has(HeadedColumn::Format) && (has(HeadedColumn::Address) || has(HeadedColumn::Name));
   };
   // Blanks alone are between the words of any text.
   const auto is_row = [](const Cells& cells, Separator separator) {
@@ -594,8 +613,9 @@ bool is_status_chart(std::string_view text) {
     return has_any(kFormats, capitals) || has_any(kFormatHeadings, capitals);
   };
   if (std::ranges::none_of(lines, may_have_format) || std::ranges::any_of(lines, is_head_of_symbols)) return false;
-  const Separator separator =
-      separator_of(lines, [&](const Cells& cells, Separator by) { return has_chart_headings(cells) || is_row(cells, by); });
+  const Separator separator = separator_of(lines, may_have_format, [&](const Cells& cells, Separator by) {
+    return has_chart_headings(cells) || is_row(cells, by);
+  });
   std::size_t rows = 0, other = 0;
   for (const std::string_view line : lines) {
     const Cells cells = cells_of(line, separator);
