@@ -151,15 +151,24 @@ class Checker {
     return longest;
   }
 
+  static std::vector<std::string> in_capitals(std::span<const stl::Symbol> symbols) {
+    std::vector<std::string> names;
+    for (const stl::Symbol& symbol : symbols) names.push_back(stl::upper_case(symbol.name));
+    return names;
+  }
+
   /// The names of all symbols, and the same in capitals.
   struct KnownNames {
-    std::vector<std::string> names{}, capitals{};
+    std::vector<std::string_view> names{}, capitals{};
+    std::vector<std::string> of_tables{};  ///< the first of these capitals
   };
   KnownNames known_names() const {
-    KnownNames known;
+    static const std::vector<std::string> kOfSystem = in_capitals(stl::system_symbols());
+    KnownNames known{.of_tables = in_capitals(source_.symbols)};
     for (const std::span<const stl::Symbol> table : {std::span(source_.symbols), stl::system_symbols()})
       for (const stl::Symbol& symbol : table) known.names.push_back(symbol.name);
-    std::ranges::transform(known.names, std::back_inserter(known.capitals), stl::upper_case);
+    for (const std::vector<std::string>& names : {std::cref(known.of_tables), std::cref(kOfSystem)})
+      known.capitals.insert(known.capitals.end(), names.begin(), names.end());
     return known;
   }
 
@@ -169,11 +178,11 @@ class Checker {
     constexpr std::size_t kShort = 6;  // two changes make another word of it
     written.remove_prefix(std::min(written.find_first_not_of(kMarks), written.size()));
     const std::string name = stl::upper_case(written.substr(0, written.find_first_of("\":")));
-    const std::vector<std::string_view> known(all.capitals.begin(), all.capitals.end());
-    const auto near = all_nearest(name, known, name.size() < kShort ? 1 : 2);
+    const auto near = all_nearest(name, all.capitals, name.size() < kShort ? 1 : 2);
     const auto longer = [&](std::string_view each) { return name.size() >= kShort && each.starts_with(name); };
-    const auto found = near.empty() ? std::ranges::find_if(known, longer) : std::ranges::find(known, near.front());
-    return found == known.end() ? std::string() : all.names[static_cast<std::size_t>(found - known.begin())];
+    const auto found =
+        near.empty() ? std::ranges::find_if(all.capitals, longer) : std::ranges::find(all.capitals, near.front());
+    return std::string(found == all.capitals.end() ? "" : all.names[static_cast<std::size_t>(found - all.capitals.begin())]);
   }
 
   void no_statement() {
@@ -975,7 +984,7 @@ class Checker {
   std::uint32_t edges_ = 0;
   bool begins_network_ = false;                                  // the next statement
   std::set<std::uint32_t> unread_lines_;                         // of errors of the parser, below the line that is read
-  std::set<std::string, std::less<>> causes_read_{};              // of messages of the parser and of tables
+  std::set<std::string, std::less<>> causes_read_{};             // of messages of the parser and of tables
   std::deque<stl::Statement> unread_;                            // in their places among statements_
   std::set<std::pair<std::uint32_t, std::uint32_t>> misplaced_;  // lines and columns where the structure has errors
 };
