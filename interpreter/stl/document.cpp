@@ -116,12 +116,13 @@ bool looks_like_address(std::string_view token) {
   };
   if (token.starts_with('&') || token.starts_with('*')) token.remove_prefix(1);
   const auto number = std::find_if_not(token.begin(), token.end(), is_letter);
+  if (number == token.end() || !std::all_of(number, token.end(), [](char c) { return is_digit(c) || c == '.'; }))
+    return false;
   std::string area = upper_case(token.substr(0, static_cast<std::size_t>(number - token.begin())));
   const bool sized = area.size() > 1 && std::string_view("XBWD").find(area.back()) != std::string_view::npos;
   if (sized) area.pop_back();
   const bool german = (sized || token.find('.') != std::string_view::npos) && is_one_of(kGermanAreas, area);
-  return number != token.end() && (german || is_one_of(kAreas, area)) &&
-         std::all_of(number, token.end(), [](char c) { return is_digit(c) || c == '.'; });
+  return german || is_one_of(kAreas, area);
 }
 
 /// Whether a token has lost the blank before its bit address: LDSM0.1

@@ -165,17 +165,12 @@ std::string printable_lines(std::string_view text) {
   return shown;
 }
 
-std::string_view take_word(std::string_view& text, std::string_view signs) {
-  const auto separates = [signs](char c) {
-    return c == ' ' || c == '\t' || std::any_of(signs.begin(), signs.end(), [c](char sign) { return sign == c; });
-  };
-  const auto goes = [separates](char c) { return separates(c) || c == '\f' || c == '\r'; };
+std::string_view take_word(std::string_view& text, const ByteSet& between) {
+  const auto goes = [&between](char c) { return between.has(c) || c == '\f' || c == '\r'; };
   while (!text.empty() && goes(text.front())) text.remove_prefix(1);
   while (!text.empty() && goes(text.back())) text.remove_suffix(1);
-  std::size_t end = 0;
-  while (end < text.size() && !separates(text[end])) ++end;
-  const std::string_view word = text.substr(0, end);
-  text.remove_prefix(end);
+  const std::string_view word = text.substr(0, between.first_in(text));
+  text.remove_prefix(word.size());
   return word;
 }
 

@@ -1,7 +1,6 @@
 // Lines and characters of a UTF-8 text.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -86,19 +85,6 @@ std::string printable(std::string_view text);
 /// A text of several lines, made printable: keeps LF and CR LF.
 std::string printable_lines(std::string_view text);
 
-/// Takes the first word off a text: what stands between blanks and tabs, and between some signs, too. Empty: there is none.
-std::string_view take_word(std::string_view& text, std::string_view signs = {});
-
-/// The words between blanks and tabs.
-std::vector<std::string> split_words(std::string_view text);
-
-/// ASCII letters in upper or lower case, everything else as it is.
-std::string upper_case(std::string_view text);
-std::string lower_case(std::string_view text);
-
-/// Whether a text is upper_case() of another: `same_in_capitals(word, "NETWORK")`.
-bool same_in_capitals(std::string_view text, std::string_view capitals);
-
 /// A set of bytes that texts are searched for: std::string_view::find_first_of() calls memchr() for each byte of the text.
 class ByteSet {
  public:
@@ -118,8 +104,23 @@ class ByteSet {
   constexpr bool any_in(std::string_view text) const { return first_in(text) != text.npos; }
 
  private:
-  std::array<bool, 256> has_{};
+  bool has_[256]{};
 };
+
+inline constexpr ByteSet kBetweenWords{" \t"}, kBetweenOperands{" \t,"};
+
+/// Takes the first word off a text. Empty: there is none.
+std::string_view take_word(std::string_view& text, const ByteSet& between = kBetweenWords);
+
+/// The words between blanks and tabs.
+std::vector<std::string> split_words(std::string_view text);
+
+/// ASCII letters in upper or lower case, everything else as it is.
+std::string upper_case(std::string_view text);
+std::string lower_case(std::string_view text);
+
+/// Whether a text is upper_case() of another: `same_in_capitals(word, "NETWORK")`.
+bool same_in_capitals(std::string_view text, std::string_view capitals);
 
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
 inline bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }

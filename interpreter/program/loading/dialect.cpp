@@ -54,7 +54,8 @@ CodeLine code_line(std::string_view line) {
   if (result.semicolon) code = stl::trim(code.substr(0, code.size() - 1));
   result.text = stl::upper_case(code);
   std::string_view rest = result.text;
-  for (auto word = stl::take_word(rest, ","); !word.empty(); word = stl::take_word(rest, ","))
+  for (auto word = stl::take_word(rest, stl::kBetweenOperands); !word.empty();
+       word = stl::take_word(rest, stl::kBetweenOperands))
     result.words.emplace_back(word);
   return result;
 }
@@ -68,11 +69,11 @@ bool is_number(std::string_view word) {
 
 /// `U E 0.0`, `L MW 10`: a blank within the address.
 bool has_blank_in_address(const CodeLine& line) {
-  return is_among(line.word(0), {"U", "UN", "O", "ON", "X", "XN", "A", "AN", "=", "S", "R", "L", "T", "FP", "FN"}) &&
+  return line.words.size() == 3 && is_number(line.word(2)) &&
+         is_among(line.word(0), {"U", "UN", "O", "ON", "X", "XN", "A", "AN", "=", "S", "R", "L", "T", "FP", "FN"}) &&
          is_among(line.word(1), {"E",  "A",  "M",   "I",   "Q",   "L",   "DBX", "DIX", "EB",  "EW", "ED", "AB",
                                  "AW", "AD", "IB",  "IW",  "ID",  "QB",  "QW",  "QD",  "MB",  "MW", "MD", "LB",
-                                 "LW", "LD", "PEW", "PAW", "PIW", "PQW", "DBB", "DBW", "DBD", "T",  "Z",  "C"}) &&
-         is_number(line.word(2)) && line.words.size() == 3;
+                                 "LW", "LD", "PEW", "PAW", "PIW", "PQW", "DBB", "DBW", "DBD", "T",  "Z",  "C"});
 }
 
 /// The head of a block of STEP 7: `FUNCTION_BLOCK FB 10`, `DATA_BLOCK DB10`, `FUNCTION FC 1 : VOID`. Micro/WIN has one OB
@@ -92,6 +93,7 @@ bool has_step7_head(const CodeLine& line) {
 
 /// `S5T#2S`, `DB10.DBW0`, `P#M0.0`
 bool has_step7_operand(const CodeLine& line) {
+  if (line.text.find('#') == std::string::npos && line.text.find(".DB") == std::string::npos) return false;
   return std::ranges::any_of(line.words, [](std::string_view word) {
     const bool data = word.starts_with("DB") && word.size() > 2 && stl::is_digit(word[2]) && word.find(".DB") != word.npos;
     return data || word.starts_with("S5T#") || word.starts_with("S5TIME#") || word.starts_with("P#") ||
@@ -117,12 +119,13 @@ bool sets_without_count(const CodeLine& line) { return is_among(line.word(0), {"
 
 /// `I0.0`, `VW100`, `SMB30`: an address that no other make writes like this.
 bool is_own_address(std::string_view word) {
-  const std::size_t letters = std::min(word.find_first_of("0123456789"), word.size());
+  const auto letters = static_cast<std::size_t>(std::ranges::find_if(word, stl::is_digit) - word.begin());
   const std::string_view area = word.substr(0, letters), number = word.substr(letters);
+  if (area.empty() || area.size() > 3 || number.empty()) return false;
   const bool bit = number.size() > 2 && number[number.size() - 2] == '.' && number.back() <= '7';
   if (bit) return is_among(area, {"I", "Q", "V", "M", "SM"}) && is_number(number);
   return is_among(area, {"IB", "IW", "ID", "QB", "QW", "QD", "VB", "VW", "VD", "MB", "MW", "MD", "SMB", "SMW", "SMD"}) &&
-         !number.empty() && std::ranges::all_of(number, stl::is_digit);
+         std::ranges::all_of(number, stl::is_digit);
 }
 
 bool has_own_address(const CodeLine& line) { return std::any_of(line.words.begin(), line.words.end(), is_own_address); }
@@ -186,18 +189,19 @@ bool has_function_number(const CodeLine& line) {
 
 /// `XIC(Start)OTE(Motor);`, as Logix exports a rung.
 bool has_logix_rung(const CodeLine& line) {
-  return std::ranges::any_of(std::array{"XIC(", "XIO(", "OTE(", "OTL(", "OTU("},
+  return line.text.find('(') != line.text.npos &&
+         std::ranges::any_of(std::array{"XIC(", "XIO(", "OTE(", "OTL(", "OTU("},
                              [&](std::string_view word) { return line.text.find(word) != line.text.npos; });
 }
 
 /// `I:1/0`, `B3:0/1`, `N7:10`, `T4:0/DN`: a file of the SLC 500 and its element.
 bool has_file_address(const CodeLine& line) {
-  return std::ranges::any_of(line.words, [](std::string_view word) {
-    const std::size_t colon = std::min(word.find(':'), word.size());
-    const std::string_view file = word.substr(0, colon), element = word.substr(std::min(colon + 1, word.size()));
-    return !file.empty() && std::string_view("IOSBTCRNF").find(file.front()) != file.npos &&
-           (file.size() == 1 || is_number(file.substr(1))) && !element.empty() && stl::is_digit(element.front());
-  });
+  return line.text.find(':') != line.text.npos && std::ranges::any_of(line.words, [](std::string_view word) {
+           const std::size_t colon = std::min(word.find(':'), word.size());
+           const std::string_view file = word.substr(0, colon), element = word.substr(std::min(colon + 1, word.size()));
+           return !file.empty() && std::string_view("IOSBTCRNF").find(file.front()) != file.npos &&
+                  (file.size() == 1 || is_number(file.substr(1))) && !element.empty() && stl::is_digit(element.front());
+         });
 }
 
 /// A sign says how surely a line shows a dialect. A text is in a dialect from kEnough on.

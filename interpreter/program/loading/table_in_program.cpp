@@ -41,7 +41,7 @@ bool is_title(std::string_view line) {
 }
 
 /// The lines between the head of a block of an export and its end: titles, declarations and code.
-std::vector<bool> within_blocks(const std::vector<std::string>& lines) {
+std::vector<bool> within_blocks(const std::vector<std::string_view>& lines) {
   const auto is_keyword = [](std::string_view word) {
     return word == "DATA_BLOCK" ||
            std::ranges::find(stl::kBlockWords, word, &stl::BlockWords::keyword) != stl::kBlockWords.end();
@@ -49,7 +49,7 @@ std::vector<bool> within_blocks(const std::vector<std::string>& lines) {
   std::vector<bool> within(lines.size(), false);
   std::optional<std::size_t> head;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (lines[i].find('_') == std::string::npos) continue;
+    if (lines[i].find('_') == std::string_view::npos) continue;
     const std::string word = first_word_of_code(lines[i]).word;
     if (is_keyword(word)) head = i;
     if (head && word.starts_with("END_") && is_keyword(std::string_view(word).substr(4))) {
@@ -62,16 +62,16 @@ std::vector<bool> within_blocks(const std::vector<std::string>& lines) {
 
 class TableFinder {
  public:
-  TableFinder(std::string_view text, const IsInstruction& is_instruction)
-      : lines_(stl::split_lines(text)),
-        is_instruction_(is_instruction),
-        in_table_(lines_.size(), false),
-        above_table_(lines_.size(), false) {
-    for (const std::string& line : lines_) read_.push_back({kind_of(line)});
+  /// The text must live as long as this.
+  TableFinder(std::string_view text, const IsInstruction& is_instruction) : is_instruction_(is_instruction) {
+    while (!text.empty()) lines_.push_back(stl::take_line(text));
+    for (const std::string_view line : lines_) read_.push_back({kind_of(line)});
   }
 
   std::optional<ProgramWithTable> run() {
     if (std::ranges::find(read_, LineKind::Statement, &ReadLine::kind) == read_.end()) return {};
+    in_table_.resize(lines_.size());
+    above_table_.resize(lines_.size());
     read_rows();
     for (std::size_t i = 0; i < read_.size(); ++i)
       if (read_[i].kind == LineKind::Head || read_[i].kind == LineKind::Row) i = take_table(i);
@@ -156,11 +156,11 @@ class TableFinder {
         std::ranges::count_if(names, [this](const std::string& name) { return words_.contains(name); }));
   }
 
-  std::vector<std::string> lines_;
+  std::vector<std::string_view> lines_{};
   const IsInstruction& is_instruction_;
   std::vector<ReadLine> read_{};
-  std::vector<bool> in_table_, above_table_;  ///< above: its title
-  std::set<std::string> words_{};             // of statements
+  std::vector<bool> in_table_{}, above_table_{};  ///< above: its title
+  std::set<std::string> words_{};                 // of statements
 };
 
 }  // namespace

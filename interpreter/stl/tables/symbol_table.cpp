@@ -369,7 +369,8 @@ std::optional<Columns> columns_of(const Cells& cells) {
   return std::nullopt;
 }
 
-/// The separator that makes the most lines rows of a table; tabs or commas if none does. A row of a table has two cells.
+/// The separator that makes the most lines rows of a table; tabs or commas if none does. A row of a table has two cells. A
+/// separator is given up when it cannot make more lines rows than another did.
 template <typename MayBeRow, typename IsRow>
 Separator separator_of(std::span<const std::string_view> lines, const MayBeRow& may_be_row, const IsRow& is_row) {
   using enum Separator;
@@ -379,11 +380,11 @@ Separator separator_of(std::span<const std::string_view> lines, const MayBeRow& 
   std::vector<std::string_view> candidates;
   std::ranges::copy_if(lines, std::back_inserter(candidates), may_be_row);
   Separator found = std::ranges::any_of(lines, [has](std::string_view line) { return has(line, Tab); }) ? Tab : Comma;
-  std::ptrdiff_t most = 0;
+  std::size_t most = 0;
   for (const Separator separator : {Tab, Semicolon, Comma, Bar, Equals, Colon, Blanks}) {
-    const auto rows = std::ranges::count_if(candidates, [&](std::string_view line) {
-      return has(line, separator) && is_row(cells_of(line, separator), separator);
-    });
+    std::size_t rows = candidates.size();
+    for (auto line = candidates.begin(); line != candidates.end() && rows > most; ++line)
+      if (!has(*line, separator) || !is_row(cells_of(*line, separator), separator)) --rows;
     if (rows <= most) continue;
     most = rows;
     found = separator;

@@ -51,11 +51,10 @@ std::string not_text(std::string_view bytes) {
   for (const FileKind& kind : kFileKinds) {
     if (bytes.starts_with(kind.beginning)) return kind.what;
   }
-  const auto nulls = static_cast<std::size_t>(std::count(bytes.begin(), bytes.end(), '\0'));
-  if (nulls > 0) return "binary data (it has NUL bytes)";
-  const auto controls = std::count_if(bytes.begin(), bytes.end(), [](char c) {
-    return c >= 0 && c < 0x20 && "\t\n\r\f\x1A"sv.find(c) == std::string_view::npos;
-  });
+  if (bytes.find('\0') != bytes.npos) return "binary data (it has NUL bytes)";
+  static constexpr ByteSet kOfText{"\t\n\r\f\x1A"};
+  const auto controls =
+      std::count_if(bytes.begin(), bytes.end(), [](char c) { return c >= 0 && c < 0x20 && !kOfText.has(c); });
   if (static_cast<std::size_t>(controls) * 10 > bytes.size()) return "binary data (it is full of control characters)";
   return {};
 }
@@ -63,6 +62,7 @@ std::string not_text(std::string_view bytes) {
 /// The byte order of UTF-16 without its mark: a program is mostly ASCII, so that every other byte is 0, and no character is
 /// 0.
 std::optional<ByteOrder> order_of_unmarked_utf16(std::string_view bytes) {
+  if (bytes.find('\0') == bytes.npos) return {};
   std::array<std::size_t, 2> nulls{};
   for (std::size_t i = 0; i < bytes.size(); ++i) nulls[i % 2] += bytes[i] == '\0';
   if (bytes.size() % 2 != 0 || nulls[0] * nulls[1] != 0 || (nulls[0] + nulls[1]) * 3 < bytes.size()) return {};

@@ -393,7 +393,7 @@ class LineWriter {
 /// Bytes of which something else may be read, if they are not in a comment.
 constexpr ByteSet kMayBeDifferent{"`%~<&[\\\x0B"};
 
-constexpr std::string_view kBetweenWords = ",;";
+constexpr ByteSet kOutsideOfWords{" \t,;"};
 
 /// A few letters of areas and sizes, and digits: `VW10`, `&VB0`, `i0.0`.
 bool may_be_address(std::string_view word) {
@@ -459,14 +459,15 @@ std::vector<std::string> words_of_code(std::string_view line) {
 
 FirstWord first_word_of_code(std::string_view line) {
   std::string_view rest = code_of(line);
-  FirstWord first{upper_case(take_word(rest, ","))};
-  while (!take_word(rest, ",").empty()) ++first.others;
+  FirstWord first{upper_case(take_word(rest, kBetweenOperands))};
+  while (!take_word(rest, kBetweenOperands).empty()) ++first.others;
   return first;
 }
 
 bool has_html(std::string_view line) {
+  static constexpr ByteSet kBegin{"<&"};
   const std::string_view code = code_of(line);
-  for (std::size_t at = code.find_first_of("<&"); at != std::string_view::npos; at = code.find_first_of("<&", at + 1))
+  for (std::size_t at = kBegin.first_in(code); at != code.npos; at = kBegin.first_in(code, at + 1))
     if (tag_at(line.substr(at)) || entity_at(line.substr(at))) return true;
   return has_lines_in_comment(line);
 }
@@ -492,7 +493,7 @@ Change change_of_fence(std::string_view line) {
 bool looks_like_statement(std::string_view line) {
   constexpr std::size_t kLongestMnemonic = 8;
   std::string_view rest = code_of(line);
-  const std::string_view mnemonic = take_word(rest, kBetweenWords);
+  const std::string_view mnemonic = take_word(rest, kOutsideOfWords);
   const bool row_of_table = mnemonic.starts_with('|');
   return mnemonic.size() <= kLongestMnemonic && !row_of_table && look_like_operands(rest);
 }
@@ -502,7 +503,7 @@ bool look_like_operands(std::string_view text) {
   text = code_of(text);
   bool any_address = false;
   std::size_t words = 0;
-  for (std::string_view word = take_word(text, kBetweenWords); !word.empty(); word = take_word(text, kBetweenWords)) {
+  for (std::string_view word = take_word(text, kOutsideOfWords); !word.empty(); word = take_word(text, kOutsideOfWords)) {
     if (++words > kMost) return false;
     any_address = any_address || may_be_address(word);
   }
@@ -517,7 +518,7 @@ std::vector<WrittenLine> written_lines(std::string_view line, Part part, bool ht
 
 bool may_be_different(std::string_view line) {
   const std::string_view code = code_of(line), comment = line.substr(code.size());
-  const bool quoted = code.find_first_of("'\"") != std::string_view::npos;  // the slashes may be part of a text
+  const bool quoted = kQuotationMarks.any_in(code);  // the slashes may be part of a text
   const auto may_be = [](char c) { return kMayBeDifferent.has(c) || static_cast<unsigned char>(c) >= 0x80; };
   if (std::ranges::any_of(quoted ? line : code, may_be))
     return !is_ascii(line) || line.find_first_of("`%\x0B") != std::string_view::npos || is_fence(line) || has_html(line) ||

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/text/text.hpp"
+
 namespace s7200::stl::plain {
 
 /// What is changed, a bit of each kind.
@@ -47,6 +49,8 @@ struct Part {
 
   bool empty() const { return from == to; }
 };
+
+inline constexpr ByteSet kQuotationMarks{"'\""};
 
 /// A tag of HTML.
 struct Tag {

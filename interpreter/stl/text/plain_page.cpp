@@ -428,15 +428,12 @@ bool is_area(std::string_view word) {
 std::vector<Part> gaps_in_addresses(std::string_view line) {
   std::vector<Part> gaps;
   const std::string_view code = code_of(line);
-  if (code.size() > kLongestStatement || code.find_first_of("'\"") != code.npos) return gaps;
+  if (code.size() > kLongestStatement || kQuotationMarks.any_in(code)) return gaps;
   std::size_t begin = std::min(code.find_first_not_of(" \t"), code.size());
-  begin = std::min(code.find_first_of(" \t", begin), code.size());  // after the mnemonic
-  for (std::size_t at = begin; at < code.size();) {
-    const std::size_t to = std::min(code.find_first_not_of(" \t", at), code.size());
-    if (to == at) {
-      ++at;
-      continue;
-    }
+  begin = std::min(kBetweenWords.first_in(code, begin), code.size());  // after the mnemonic
+  for (std::size_t at = begin; at < code.size(); at = kBetweenWords.first_in(code, at)) {
+    std::size_t to = at;
+    while (to < code.size() && kBetweenWords.has(code[to])) ++to;
     const char next = to < code.size() ? code[to] : '\0';
     if (!is_digit(next) && next != '.') {
       at = to;
