@@ -17,6 +17,18 @@ std::size_t sign_before_number(std::string_view text) {
   return sign == kSigns.end() ? 0 : sign->size();
 }
 
+/// Whether the word for a network may begin with a byte.
+constexpr bool may_begin_word(char c) {
+  constexpr ByteSet kLetters{"NRSAnrsa"};
+  return kLetters.has(c) || static_cast<unsigned char>(c) >= 0x80;
+}
+
+/// Whether its heading may begin with a byte: with a rule, a bracket or the word.
+bool may_begin_heading(char c) {
+  constexpr ByteSet kSigns{"=-*#~_+[({<"};
+  return kSigns.has(c) || may_begin_word(c);
+}
+
 /// What stands around a heading: `===`, `[`. A single `=` begins a coil.
 struct Frame {
   std::size_t bytes = 0;  ///< in front of the heading
@@ -67,10 +79,7 @@ std::size_t network_word(std::string_view text) {  // beyond ASCII as they are w
   static constexpr std::string_view kBeyond[] = {"RÉSEAU", "Réseau", "réseau", "СЕТЬ",   "Сеть",        "сеть", "网络",
                                                  "網路",   "網絡",   "程序段", "程式段", "SIEĆ",        "Sieć", "sieć",
                                                  "SÍŤ",    "Síť",    "AĞ",     "Ağ",     "ネットワーク"};
-  constexpr auto kMayBegin = [](std::string_view word) {
-    return !word.empty() &&
-           (static_cast<unsigned char>(word[0]) >= 0x80 || std::string_view("NRSAnrsa").find(word[0]) != word.npos);
-  };
+  constexpr auto kMayBegin = [](std::string_view word) { return !word.empty() && may_begin_word(word[0]); };
   static_assert(std::ranges::all_of(kAscii, kMayBegin) && std::ranges::all_of(kBeyond, kMayBegin));
   if (!kMayBegin(text)) return 0;
   const auto letters = static_cast<std::size_t>(std::ranges::find_if_not(text, is_letter) - text.begin());
@@ -86,6 +95,7 @@ std::optional<NetworkHeading> network_heading(std::string_view line) {
   constexpr std::size_t kMostDigits = 5;
   NetworkHeading heading{.begin = std::min(line.find_first_not_of(" \t"), line.size())};
   std::string_view rest = line.substr(heading.begin);
+  if (rest.empty() || !may_begin_heading(rest.front())) return std::nullopt;
   const Frame frame = frame_before(rest);
   rest.remove_prefix(frame.bytes);
   const std::size_t word = network_word(rest);
