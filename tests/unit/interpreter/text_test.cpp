@@ -12,6 +12,19 @@ TEST(Text, WordsAreWhatBlanksAndTabsSeparate) {
   EXPECT_TRUE(split_words(" \t").empty());
 }
 
+TEST(Text, WordsAreTakenOneByOneAtTheSignsBetweenThem) {
+  std::string_view rest = "MOVW VW0,VW2\r";
+  EXPECT_EQ(take_word(rest), "MOVW");
+  EXPECT_EQ(take_word(rest, kBetweenOperands), "VW0");
+  EXPECT_EQ(take_word(rest, kBetweenOperands), "VW2");
+  EXPECT_EQ(take_word(rest), "");
+  EXPECT_TRUE(same_in_capitals("Network", "NETWORK"));
+  EXPECT_FALSE(same_in_capitals("NETWORK", "Network"));
+  EXPECT_EQ(ByteSet("\xE4:").first_in("a\xE4:"), 1U);
+  EXPECT_EQ(ByteSet("\xE4:").first_in("a\xE4:", 2), 2U);
+  EXPECT_FALSE(ByteSet("\xE4:").any_in("abc"));
+}
+
 TEST(Text, ALineEndsAtAnyLineEndWhateverItsLength) {
   for (const std::string_view end : {"\n"sv, "\r"sv, "\r\n"sv})
     for (const std::size_t length : {0U, 1U, 254U, 255U, 256U, 257U, 511U, 512U, 600U}) {
