@@ -30,7 +30,8 @@ std::string our_slave() {
 }
 
 struct Asked : OnePlc {
-  explicit Asked(std::string_view text) : OnePlc(program_of(text)) {}
+  explicit Asked(std::shared_ptr<const Program> program) : OnePlc(std::move(program)) {}
+  explicit Asked(std::string_view text) : Asked(program_of(text)) {}
 
   Reply operator()(std::string_view command) { return execute(session, command_words(command)); }
   Json json(std::string_view command) {
@@ -149,6 +150,25 @@ TEST(Pages, GetManyValuesEachInItsForm) {
   EXPECT_EQ(values[4]["name"], "nonsense");
   EXPECT_TRUE(values[4].contains("error"));
   EXPECT_EQ(values[5]["number"], 1.5);
+}
+
+TEST(Pages, GetTheOtherValuesWhereAVariableIsOfAnotherBlock) {
+  constexpr std::string_view kCalls =
+      "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.0\nCALL SBR0, 7\nEND_ORGANIZATION_BLOCK\n"
+      "SUBROUTINE_BLOCK Pump:SBR0\nVAR_INPUT\nspeed : INT;\nEND_VAR\nBEGIN\nNETWORK 1\nLD SM0.0\nMOVW #speed, VW0\n"
+      "END_SUBROUTINE_BLOCK\n";
+  Asked session(check_text(kCalls, "test.awl", cpu224(), default_times(cpu224())).program);
+  const Json outside = session.json("values VB0 #speed VW2")["values"];
+  ASSERT_EQ(outside.size(), 3U);
+  EXPECT_EQ(outside[1]["name"], "#speed");
+  EXPECT_TRUE(has(outside[1]["error"].get<std::string>(), "#speed is no variable of main"));
+  EXPECT_EQ(outside[2]["address"], "VW2");
+  session("until SBR 0");
+  session("step");
+  const Json inside = session.json("values #speed")["values"];
+  EXPECT_EQ(inside[0]["name"], "#speed");
+  EXPECT_EQ(inside[0]["address"], "LW0");
+  EXPECT_EQ(inside[0]["number"], 7);
 }
 
 TEST(Pages, SeeWhatIsForced) {

@@ -298,7 +298,7 @@ cannot be recorded. A file that exists is replaced if ! follows its name.)",
        "memory, one value a line, each in the form that stands before it",
        R"(The forms are those of print. What is wrong with an address stands in its place, and 'record' does not expect these
 values again. For pages, which ask often. For example: values VW100 /x VB4:8 /b QB0.)",
-       commands::values, Takes::Addresses, false, kPrintWords},
+       commands::values, Takes::Values, false, kPrintWords},
       {"expect", "", "expect EXPRESSION", "a failure unless it holds: a script with such lines is a test",
        "expect VW20 = 5 and M0.1. A script ends at the first that does not hold, with exit code 1.", commands::expect,
        Takes::Addresses},
@@ -445,7 +445,8 @@ Reply execute(Session& session, Words words) {
   if (!command) return wrong(command.why());
   std::string why;
   words.erase(words.begin());
-  const bool reads_them_itself = command->takes == Takes::Break;  // its condition is about the routine of its place
+  // The condition of a break is about the routine of its place; what is wrong with a value stands in the value's place.
+  const bool reads_them_itself = command->takes == Takes::Break || command->takes == Takes::Values;
   if (!reads_them_itself) why = with_local_variables(session, words, session.current_op());
   if (why.empty() && !command->takes_words() && !words.empty()) why = no_argument(command->name);
   session.command = std::string(command->name) + (words.empty() ? "" : " ") + joined(words);

@@ -16,6 +16,7 @@ namespace s7200::tools {
 enum class Takes : std::uint8_t {
   Nothing,
   Addresses,
+  Values,   ///< addresses, of which a wrong one does not end it
   Writers,  ///< what has a last write, or an attachment
   Break,
   Watch,

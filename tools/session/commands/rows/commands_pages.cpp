@@ -8,6 +8,7 @@
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/session/causes/expression.hpp"
+#include "tools/session/commands/memory_words.hpp"
 #include "tools/session/commands/rows/commands.hpp"
 #include "tools/session/observers/tracks_of_past.hpp"
 #include "tools/session/past/actions/access.hpp"
@@ -49,7 +50,7 @@ bool is_forced(const std::vector<Forced>& forced, const Bits& bits) {
 }
 
 struct ValuesReply {
-  const Session& session;
+  Session& session;
   const std::vector<Forced> forced = forced_in(session.cpu());
   Reply reply{.json = {{"at_ns", session.history.now().time}, {"values", Json::array()}}};
 
@@ -57,7 +58,10 @@ struct ValuesReply {
 
   void add(const std::string& name, const PrintForm& form) {
     const Cpu& cpu = session.cpu();
-    const auto place = parse_place(name, cpu.program());
+    Words address{name};
+    if (const std::string why = with_local_variables(session, address, session.current_op()); !why.empty())
+      return add_wrong(name, why);
+    const auto place = parse_place(address.front(), cpu.program());
     const auto range = place ? range_now(*place, cpu) : std::nullopt;
     std::string why = place.why();
     if (place && !range) why = "the pointer points nowhere now";

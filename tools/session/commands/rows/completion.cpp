@@ -161,6 +161,7 @@ Words words_after(const Session& session, const CommandRow& command, const Words
           all.push_back("station=" + one.name);
       break;
     case Takes::Addresses:
+    case Takes::Values:
       add(address_words(program));
       break;
     case Takes::Writers:
