@@ -248,6 +248,18 @@ TEST(Pages, SeeCharactersAndFramesInWords) {
   EXPECT_EQ(frames[1]["text"], "sent 41");
 }
 
+TEST(Pages, SeeTheBeginningOfAFrameThatDoesNotEnd) {
+  Asked session(
+      "LD SM0.1\nMOVB 9, SMB30\nMOVB 255, VB0\nFILL 16#5555, VW1, 127\nATCH 0, 9\nENI\nXMT VB0, 0\nMEND\nINT 0\nXMT VB0, 0\n"
+      "RETI\n");
+  session("continue 2s");
+  const Json frames = track(session.json("spans start end"), "frames", "port 0 frames")["spans"];
+  ASSERT_EQ(frames.size(), 1U);
+  const std::string text = frames[0]["text"];
+  EXPECT_TRUE(has(text, " bytes more")) << text.substr(text.size() - 40);
+  EXPECT_LT(text.size(), 4000U);
+}
+
 TEST(Pages, SeeThatARequestAfterAnAnswerIsNoAnswer) {
   Asked session(our_slave());
   session("continue 100ms");

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/base/text/counted.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/program/ladder/networks.hpp"
 #include "interpreter/trace/text/event_lines.hpp"
@@ -88,13 +89,17 @@ class FrameTrack {
     sent_ = sent;
     frame_.end = character.end;
     if (frame_.error.empty()) frame_.error = character.error;
-    bytes_.push_back(byte);
+    if (bytes_.size() < kMostKept)
+      bytes_.push_back(byte);
+    else
+      ++more_;
   }
 
   void finish() {
     if (bytes_.empty()) return;
     const bool follows = is_answer(), is_late = !follows && is_answer_to_earlier_request(), answers = follows || is_late;
     std::string said = serial::to_hex(bytes_);
+    if (more_ > 0) said += fmt::format(" … and {} more", counted(more_, "byte"));
     const std::string words = is_late ? fmt::format("an answer of station {}", bytes_[0]) : in_words(follows);
     if (!words.empty()) said += ": " + words;
     frame_.text = fmt::format("{} {}", sent_ ? "sent" : "received", said);
@@ -104,9 +109,13 @@ class FrameTrack {
     request_ = answers ? Bytes{} : bytes_;
     request_was_sent_ = sent_;
     bytes_.clear();
+    more_ = 0;
   }
 
  private:
+  /// Four times what Modbus RTU has at most: what is sent without a pause has no end.
+  static constexpr std::size_t kMostKept = 1024;
+
   /// What a PLC that is a master receives as an answer is no request.
   void note_answer(std::string said, bool answers) {
     if (answers && !sent_) {
@@ -158,6 +167,7 @@ class FrameTrack {
   std::uint8_t port_;
   TrackSpan frame_{};
   Bytes bytes_{};
+  std::size_t more_ = 0;  ///< bytes after those
   Bytes request_{};  ///< the frame before, unless it was an answer
   bool sent_ = false, request_was_sent_ = false;
   bool unsure_;  ///< whether the next frame is a request: no answer has followed one yet
