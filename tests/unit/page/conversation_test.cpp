@@ -133,6 +133,7 @@ TEST(Page, IsToldThatACommandWasNotDoneAfterAStop) {
   Pages pages;
   pages.talk->handle(1, {{"id", 9}, {"command", "scan"}}, true);
   EXPECT_EQ(pages.got.back().second["interrupted"], true);
+  EXPECT_EQ(pages.got.back().second["undone"], true);
   EXPECT_EQ(pages.simulation.time(), 0);
 }
 

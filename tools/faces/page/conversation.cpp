@@ -76,8 +76,9 @@ void Conversation::greet(Client client) const {
 void Conversation::handle(Client client, const Json& message, bool undone) {
   const std::string* const command = text_in(message, "command");
   if (!command) return complain(client, "a message has a command: {\"id\": 1, \"command\": \"step\"}");
-  const Reply reply = undone ? Reply{.interrupted = true} : carry_out(*command);
-  post_.to(client, message_of(reply_json(id_of(message), reply)));
+  Json json = reply_json(id_of(message), undone ? Reply{.interrupted = true} : carry_out(*command));
+  if (undone) json["undone"] = true;
+  post_.to(client, message_of(json));
 }
 
 /// Up to the first wrong command of the line, or to a stop.
