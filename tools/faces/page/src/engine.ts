@@ -111,13 +111,18 @@ export class WorkerEngine implements Engine {
   readonly can_be_stopped = false;
   private readonly worker: Worker;
   private readonly conversation: Conversation;
+  private failure = '';
 
   constructor(address: string | URL, onlooker: Onlooker) {
     this.worker = new Worker(address);  // a page that is a file may have no worker that is a module
-    this.conversation = new Conversation(onlooker, (text) => this.worker.postMessage(text));
+    this.conversation = new Conversation(onlooker, (text) => {
+      if (this.failure === '') this.worker.postMessage(text);
+      else this.conversation.abandon(this.failure);
+    });
     this.worker.onmessage = ({ data }) => this.conversation.received(data);
     this.worker.onerror = (event) => {
-      this.conversation.abandon(`the engine in the browser has failed: ${event.message ?? 'it cannot be loaded'}`);
+      this.failure = `the engine in the browser has failed: ${event.message ?? 'it cannot be loaded'}`;
+      this.conversation.abandon(this.failure);
       onlooker.connection('ended');
     };
     onlooker.connection('connected');

@@ -82,8 +82,13 @@ function take(engine: Engine, message: string): string[] {
   return all;
 }
 
+/** An error of the worker, which the page hears of: it does not hear of one in a promise. */
+function fail(error: unknown): void {
+  setTimeout(() => { throw error; });
+}
+
 const engine = load();
-self.onmessage = async ({ data }: MessageEvent<string>) => {
-  for (const message of take(await engine, data)) self.postMessage(message);
+self.onmessage = ({ data }: MessageEvent<string>) => {
+  engine.then((one) => take(one, data).forEach((message) => self.postMessage(message))).catch(fail);
 };
-engine.catch((error: unknown) => setTimeout(() => { throw error; })); // an error of the worker, which the page hears of
+engine.catch(fail);
