@@ -24,7 +24,7 @@ test('moments are read in every unit that a command takes, and written so that n
   assert.equal(parts.moment_word(102605583), '102605583ns');
   for (const ns of [0, 1, 15193000, 102605583, 86400e9]) assert.equal(parts.moment_of_link(parts.link_of(ns)), ns);
   assert.equal(parts.moment_of_link('#p=abc&t=5ms'), 5000000);
-  assert.equal(parts.moment_of_link('#other'), undefined);
+  for (const none of ['#other', '#t=%', '#t=%ff']) assert.equal(parts.moment_of_link(none), undefined, none);
 });
 
 test('marks of a day are hours and minutes, as far apart as those of a clock', () => {

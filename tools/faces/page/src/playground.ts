@@ -8,8 +8,8 @@ export function can_open(): boolean {
 }
 
 /** A file that is no text, a document perhaps, is not kept: what was there before it still is. */
-function leave_out_unreadable(error: string): void {
-  const kept = state.sources.filter((one) => !error.startsWith(`cannot read ${one.name}: `));
+function leave_out_unreadable(error: string, given: Source[]): void {
+  const kept = state.sources.filter((one) => !given.includes(one) || !error.startsWith(`cannot read ${one.name}: `));
   if (kept.length === state.sources.length) return;
   state.sources = kept;
   state.opening = state.outline === null;
@@ -33,18 +33,19 @@ export async function open_program(): Promise<void> {
     return;
   }
   notice('');
-  const sources = state.sources.map(({ name, text, hex }) => (hex === undefined ? { name, text } : { name, hex }));
+  const given = state.sources;
+  const sources = given.map(({ name, text, hex }) => (hex === undefined ? { name, text } : { name, hex }));
   const reply = await engine.open({ sources, options: state.cpu === '' ? {} : { cpu: state.cpu } });
   if (reply.error !== undefined || !reply.json) {
     notice(reply.error ?? 'the program could not be opened', 'error');
-    leave_out_unreadable(reply.error ?? '');
+    leave_out_unreadable(reply.error ?? '', given);
     return;
   }
-  const read = new Map(reply.json.sources?.map(({ name, text }) => [name, text]));
-  state.sources = state.sources.map((one) => (one.hex === undefined ? one : { name: one.name, text: read.get(one.name) ?? one.text }));
+  const read = new Map(reply.json.sources?.map(({ name, text }) => [name, text])), is_as_given = state.sources === given;
+  state.sources = state.sources.map((one) => (one.hex === undefined || !given.includes(one) ? one : { name: one.name, text: read.get(one.name) ?? one.text }));
   state.check_text = reply.json.text;
   state.check_notes = notes_of(reply.json);
-  state.opening = !reply.json.opened;
+  state.opening = !reply.json.opened || !is_as_given;  // someone types on
   if (reply.json.opened && state.check_notes.length > 0) notice(state.check_notes.join('\n'));
   changed();
 }

@@ -60,8 +60,12 @@ export function moment_from(text: string): number | undefined {
 
 /** The moment of `#t=15.193ms`. */
 export function moment_of_link(hash: string): number | undefined {
-  const parts = /[#&]t=([^&]+)/.exec(hash);
-  return parts ? moment_from(decodeURIComponent(parts[1]!)) : undefined;
+  const written = /[#&]t=([^&]+)/.exec(hash)?.[1];
+  try {
+    return written === undefined ? undefined : moment_from(decodeURIComponent(written));
+  } catch {
+    return undefined;  // such as `%` alone
+  }
 }
 
 export function link_of(ns: number): string {

@@ -48,6 +48,7 @@ async function fetch_network(place: Place): Promise<void> {
     const next = reply.json.first_op + reply.json.ops;
     line = next < place.end ? [...state.lines.values()].find((one) => one.op === next)?.line : undefined;
   }
+  wrong = '';
   state.ladder.set(place.line, parts);
 }
 

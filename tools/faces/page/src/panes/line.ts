@@ -8,6 +8,7 @@ import { exchanges_of, is_overdue, is_unanswered, type Exchange } from '../excha
 import { action, title_with_key } from '../actions';
 import { clock_text, duration_text, moment_text } from '../words';
 import { histogram } from './histogram';
+import type { Hello } from '../protocol';
 
 let filter = '';
 
@@ -19,15 +20,15 @@ async function send(text: string): Promise<void> {
   const reply = await command(`send ${line}`), told = `send ${line}: `, at_ns = state.past?.now_ns ?? 0;
   if (reply.error?.startsWith(told)) notice(reply.error.slice(told.length), 'error', 'send');
   if (reply.error?.startsWith(kStillUnderWay)) notice('The last frame is still under way or waiting for its answer: Run on first', 'error', 'send');
-  if (reply.error === undefined) waiting = { at_ns, frame: line };
+  if (reply.error === undefined) waiting = { of: state.hello, at_ns, frame: line };
   changed();
 }
 
 /** What was sent while the program stood at that moment: it is on the line as soon as it runs. */
-let waiting: { at_ns: number; frame: string } | null = null;
+let waiting: { of: Hello | null; at_ns: number; frame: string } | null = null;
 
 function waiting_row(): Part | null {
-  if (!waiting || state.running || waiting.at_ns !== state.past?.now_ns) return null;
+  if (!waiting || waiting.of !== state.hello || state.running || waiting.at_ns !== state.past?.now_ns) return null;
   return h('tr', { key: 'waits', class: 'waits' }, h('td', {}, ''), h('td', { class: 'frame' }, waiting.frame), h('td', { class: 'frame' }, 'waits for Run'), h('td', {}, ''));
 }
 
