@@ -1,5 +1,5 @@
 // Everything that one can do, once: buttons, keys and the help read this table.
-import { changed, notice, show_pane, state, type PaneName } from './state';
+import { changed, notice, show_pane, state } from './state';
 import { command, go_to, go_to_named, move } from './session';
 import { pause, run } from './running';
 import { ask_why } from './causes';
@@ -7,7 +7,8 @@ import { address_of } from './files';
 import { compare_futures } from './futures';
 import { next_mark, toggle_mark } from './marks';
 import { can_open } from './playground';
-import { remember, remembered } from './memory';
+import { remember, remembered } from './kept';
+import { keys_to, kPanes, type PaneName } from './pane_table';
 import { run_in_link } from './report';
 import { link_of, moment_from } from './words';
 import type { Stopped } from './protocol';
@@ -110,6 +111,11 @@ export function toggle_dialog(which: 'help' | 'about'): () => void {
   };
 }
 
+function pane_actions(): Action[] {
+  return [...kPanes].sort((a, b) => a.key.localeCompare(b.key)).map((one) => ({ id: `pane-${one.pane}`, group: 'Page', title: 'title' in one ? one.title : one.name, keys: [one.key],
+    does: () => { if (one.pane !== 'report' || state.report) focus_pane(one.pane); } }));
+}
+
 export const kActions: Action[] = [
   { id: 'run', group: 'Run', title: 'Run or pause', keys: [' ', 'F5'], does: toggle_run },
   { id: 'mode-run', group: 'Run', title: 'Switch the CPU to RUN', keys: ['Shift+R'], does: () => void command('mode run') },
@@ -162,12 +168,7 @@ export const kActions: Action[] = [
   { id: 'previous-mark', group: 'Timeline', title: 'Previous mark', keys: ['<'], does: () => go_to_mark(-1) },
   { id: 'compare', group: 'Timeline', title: 'Two futures: keep this one, change something, compare', keys: ['c'], does: () => void compare_futures() },
 
-  { id: 'pane-program', group: 'Page', title: 'Program status', keys: ['1'], does: () => focus_pane('program') },
-  { id: 'pane-chart', group: 'Page', title: 'Status chart', keys: ['2'], does: () => focus_pane('chart') },
-  { id: 'pane-line', group: 'Page', title: 'Line', keys: ['3'], does: () => focus_pane('line') },
-  { id: 'pane-causes', group: 'Page', title: 'Why', keys: ['4'], does: () => focus_pane('causes') },
-  { id: 'pane-timeline', group: 'Page', title: 'Timeline', keys: ['5'], does: () => focus_pane('timeline') },
-  { id: 'pane-report', group: 'Page', title: 'Report, of a page that is one', keys: ['6'], does: () => { if (state.report) focus_pane('report'); } },
+  ...pane_actions(),
   { id: 'theme', group: 'Page', title: 'Light, dark or as the system', keys: ['t'], does: next_theme },
   { id: 'help', group: 'Page', title: 'Keys', keys: ['?', 'F1'], does: toggle_dialog('help') },
   { id: 'about', group: 'Page', title: 'About', keys: [], does: toggle_dialog('about') },
@@ -178,12 +179,9 @@ export function action(id: string): Action {
   return by_id.get(id)!;
 }
 
-/** What takes arrow keys in a pane. */
-const kPaneContents: { [pane in PaneName]?: string } = { program: '#pane-program .listing', timeline: '#timeline' };
-
 /** At once if it is there, so that the next key finds it. */
 function focus_pane(pane: PaneName): void {
-  const focus = (): void => document.querySelector<HTMLElement>(kPaneContents[pane] ?? `#pane-${pane}`)?.focus();
+  const focus = (): void => document.querySelector<HTMLElement>(keys_to(pane))?.focus();
   show_pane(pane);
   focus();
   requestAnimationFrame(focus);

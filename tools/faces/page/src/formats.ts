@@ -1,15 +1,17 @@
 // Values in the formats of a status chart, by the names that Micro/WIN gives them.
-import { state, type ChartRow, type Format } from './state';
+import { state, type ChartRow } from './state';
 import type { Value } from './protocol';
 
-export const kFormats: { format: Format; name: string }[] = [
+export const kFormats = [
   { format: 'signed', name: 'Signed' },
   { format: 'unsigned', name: 'Unsigned' },
   { format: 'hex', name: 'Hexadecimal' },
   { format: 'binary', name: 'Binary' },
   { format: 'ascii', name: 'ASCII' },
   { format: 'real', name: 'Floating point' },
-];
+] as const;
+
+export type Format = (typeof kFormats)[number]['format'];
 
 const kBits = { bit: 1, byte: 8, word: 16, dword: 32, real: 32 };
 
@@ -81,7 +83,8 @@ export function query_of(address: string, format: Format): string {
   return format === 'real' && !word.includes(':') && !word.startsWith('"') ? `${word}:real` : word;
 }
 
-/** What a query can hold: one word, or a symbol in quotation marks. */
+/** What a query can hold: one word, or a symbol in quotation marks; what begins a comment would end it. */
 export function is_one_word(address: string): boolean {
-  return /^("[^"]+"|[^\s";/][^\s";]*)$/.test(address.trim());
+  const word = address.trim();
+  return /^("[^"]+"|[^\s";/][^\s";]*)$/.test(word) && word !== '#' && (word.startsWith('"') || !word.includes('//'));
 }

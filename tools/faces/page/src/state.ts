@@ -2,9 +2,10 @@
 import type { Connection, Engine } from './engine';
 import type { Cause, Done, Execution, Hello, LadderNetwork, Line, Outline, Past, Report, Source, Span, Spans, Value } from './protocol';
 import type { Exchange } from './exchanges';
+import type { Format } from './formats';
+import { side_of, type PaneName, type SideName } from './pane_table';
 import type { Measurement } from './timeline/measure';
 
-export type PaneName = 'program' | 'chart' | 'timeline' | 'causes' | 'line' | 'report';
 export type Theme = 'system' | 'light' | 'dark';
 
 /** A row of the status chart. */
@@ -13,7 +14,6 @@ export interface ChartRow {
   format: Format;
   new_value: string;
 }
-export type Format = 'signed' | 'unsigned' | 'hex' | 'binary' | 'ascii' | 'real';
 
 /** How a switch works: it stays where it is put, returns when it is let go, or gives pulses. */
 export type SwitchKind = 'switch' | 'push' | 'pulses';
@@ -60,7 +60,7 @@ export interface State {
   /** Which pane a narrow window shows. */
   pane: PaneName;
   /** Which of those that share the right side is in front. */
-  side: 'chart' | 'causes' | 'line' | 'report';
+  side: SideName;
 
   outline: Outline | null;
   lines: Map<number, Line>;
@@ -217,7 +217,7 @@ export function show_dialog(which: State['dialog']): void {
 /** Brings a pane to the front. */
 export function show_pane(pane: PaneName): void {
   state.pane = pane;
-  if (pane === 'chart' || pane === 'causes' || pane === 'line' || pane === 'report') state.side = pane;
+  state.side = side_of(pane) ?? state.side;
   changed();
 }
 

@@ -1,13 +1,13 @@
 // The status chart, with switches of the inputs and lamps of the outputs above it.
-import { h, kept, type Child, type Part } from '../dom';
+import { h, type Child, type Part } from '../dom';
 import { command, see_values } from '../session';
-import { is_one_word, kFormats, query_of, text_in } from '../formats';
+import { is_one_word, kFormats, query_of, text_in, type Format } from '../formats';
 import { is_pulsing, kMostHertz, set_hertz, toggle_pulses } from '../pulses';
-import { changed, notice, state, type ChartRow, type Format, type PointRow, type SwitchKind } from '../state';
+import { changed, notice, state, type ChartRow, type PointRow, type SwitchKind } from '../state';
 import { level_of, switch_to, terminal_level } from '../switches';
-import { remember, remembered } from '../memory';
+import { remember, remembered } from '../kept';
 import { chart_from, chart_text } from '../status_charts';
-import type { Outline, Value } from '../protocol';
+import type { Value } from '../protocol';
 import { open_menu } from './menu';
 import { icon } from '../icons';
 
@@ -16,7 +16,8 @@ const kKept = 'chart';
 export function load_chart(): void {
   try {
     const rows = JSON.parse(remembered(kKept) ?? '[]') as ChartRow[];
-    state.chart = rows.filter((row) => typeof row.address === 'string').map((row) => ({ ...row, new_value: '' }));
+    state.chart = rows.filter((row) => typeof row?.address === 'string').map(({ address, format }) =>
+      ({ address, format: kFormats.some((one) => one.format === format) ? format : 'signed', new_value: '' }));
   } catch {
     state.chart = [];
   }
@@ -56,7 +57,7 @@ async function write(row: ChartRow, how: 'set' | 'force'): Promise<void> {
     return;
   }
   const reply = await command(`${how} ${row.address}=${value.replace(/\s/g, '')}`);
-  if (reply.error === undefined) row.new_value = '';
+  if (reply.error === undefined && row.new_value.trim() === value) row.new_value = '';
   changed();
 }
 
@@ -168,9 +169,6 @@ function add_row(): Part {
   h('button', { 'aria-label': 'Add' }, icon('plus')));
 }
 
-const symbols = kept((outline: Outline | null): Part =>
-  h('datalist', { id: 'symbols' }, (outline?.symbols ?? []).slice(0, 500).map((one) => h('option', { value: one.name }, `${one.address}  ${one.comment}`))));
-
 function symbol_of(address: string): string {
   return state.values.get(address)?.symbol ?? '';
 }
@@ -260,5 +258,5 @@ export function chart_pane(): Part {
     h('table', { class: 'chart' },
       h('thead', {}, h('tr', {}, ['Address', 'Format', 'Current value', 'New value', '', 'Trend'].map((name) => h('th', {}, name)))),
       h('tbody', {}, state.chart.map(chart_row))),
-    add_row(), symbols(state.outline));
+    add_row());
 }

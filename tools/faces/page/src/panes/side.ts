@@ -1,17 +1,15 @@
 // The right side: panes that share a place.
-import { h, type Part } from '../dom';
-import { show_pane, state, type PaneName } from '../state';
+import { h, kept, type Part } from '../dom';
+import { kPanes, type PaneName, type SideName } from '../pane_table';
+import { show_pane, state } from '../state';
 import { causes_pane } from './causes';
 import { chart_pane } from './chart';
 import { line_pane } from './line';
 import { report_pane } from './report';
+import type { Outline } from '../protocol';
 
-const kSides = [
-  { id: 'report', name: 'Report', content: report_pane },
-  { id: 'chart', name: 'Status chart', content: chart_pane },
-  { id: 'line', name: 'Line', content: line_pane },
-  { id: 'causes', name: 'Why', content: causes_pane },
-] as const;
+const kContents: Record<SideName, () => Part> = { report: report_pane, chart: chart_pane, line: line_pane, causes: causes_pane };
+const kSides = kPanes.filter((one) => one.aside);
 
 /** Arrow keys go from tab to tab, which is one stop of the tab key. */
 function on_key<Id extends PaneName>(event: KeyboardEvent, ids: Id[], shown: Id): void {
@@ -24,12 +22,18 @@ function on_key<Id extends PaneName>(event: KeyboardEvent, ids: Id[], shown: Id)
   document.querySelector<HTMLElement>(`#tab-${next}`)?.focus();
 }
 
+const kOffered = 500;
+
+/** What may be typed where an address is asked for. */
+const symbols = kept((outline: Outline | null): Part =>
+  h('datalist', { id: 'symbols' }, (outline?.symbols ?? []).slice(0, kOffered).map((one) => h('option', { value: one.name }, `${one.address}  ${one.comment}`))));
+
 export function side_pane(): Part {
-  const sides = kSides.filter((one) => one.id !== 'report' || state.report !== null);
-  const shown = sides.find((one) => one.id === state.side)!;
-  return h('section', { id: `pane-${shown.id}`, class: 'pane side', 'aria-label': shown.name, tabindex: '-1' },
-    h('header', { role: 'tablist', onkeydown: (event: KeyboardEvent) => on_key(event, sides.map((one) => one.id), shown.id) }, sides.map((one) => h('button', {
-      role: 'tab', id: `tab-${one.id}`, 'aria-selected': String(one.id === shown.id), tabindex: one.id === shown.id ? '0' : '-1', onclick: () => show_pane(one.id),
+  const sides = kSides.filter((one) => one.pane !== 'report' || state.report !== null);
+  const shown = sides.find((one) => one.pane === state.side)!;
+  return h('section', { id: `pane-${shown.pane}`, class: 'pane side', 'aria-label': shown.name, tabindex: '-1' },
+    h('header', { role: 'tablist', onkeydown: (event: KeyboardEvent) => on_key(event, sides.map((one) => one.pane), shown.pane) }, sides.map((one) => h('button', {
+      role: 'tab', id: `tab-${one.pane}`, 'aria-selected': String(one.pane === shown.pane), tabindex: one.pane === shown.pane ? '0' : '-1', onclick: () => show_pane(one.pane),
     }, one.name))),
-    h('div', { class: 'scrolls', key: shown.id }, shown.content()));
+    h('div', { class: 'scrolls', key: shown.pane }, kContents[shown.pane]()), symbols(state.outline));
 }
