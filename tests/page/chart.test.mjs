@@ -103,6 +103,27 @@ test('the inputs and outputs of the program are there, and what keeps a valve of
   rmSync(folder, { recursive: true });
 });
 
+test('a switch works while it runs as fast as it goes, and to go elsewhere ends the run', async () => {
+  const folder = mkdtempSync(path.join(tmpdir(), 's7200-'));
+  writeFileSync(path.join(folder, 'lamp.stl'), 'LD I0.0\n= Q0.0\nMEND\n');
+  const lamp = await view(path.join(folder, 'lamp.stl')), other = await open(chrome, lamp.address);
+  await other.selectOption('#pace', '0');
+  await other.click('#do-run');
+  for (const level of ['on', 'off', 'on']) {
+    await other.click('[aria-label="Input I0.0"]');
+    await other.waitForSelector(`[aria-label="Output Q0.0 ${level}"]`);
+    assert.equal(await other.textContent('#do-run'), 'Pause');
+  }
+  await other.click('#do-start');
+  await other.waitForFunction(() => document.querySelector('#do-run').textContent === 'Run' && parseFloat(document.querySelector('#moment').value) === 0);
+  await rendered(other);
+  assert.equal(await other.textContent('.tag'), 'past');
+  assert.deepEqual(other.troubles, []);
+  await other.close();
+  await end(lamp.server);
+  rmSync(folder, { recursive: true });
+});
+
 test('a pulse train counts in simulated time, whatever the pace', async () => {
   const counter = await view('stl_programs/edge_counter.stl');
   const other = await open(chrome, counter.address);

@@ -1,7 +1,7 @@
 // Everything that one can do, once: buttons, keys and the help read this table.
 import { changed, notice, show_pane, state } from './state';
-import { command, go_to, go_to_named, move } from './session';
-import { pause, run } from './running';
+import { command, go_to, go_to_named, move, pause } from './session';
+import { run } from './running';
 import { ask_why } from './causes';
 import { address_of } from './files';
 import { compare_futures } from './futures';
@@ -31,17 +31,12 @@ function toggle_run(): void {
   else void run();
 }
 
-/** A step ends a run that goes on. */
 function step(words: string): () => void {
-  return () => {
-    if (state.own_run) pause();
-    void move(words);
-  };
+  return () => void move(words);
 }
 
 /** To the next interrupt, or to the one before; if there is none, it stays where it was. */
 async function step_to_interrupt(direction: 1 | -1): Promise<void> {
-  if (state.own_run) pause();
   if (!state.outline?.routines.some((one) => /^INT/.test(one.name))) {
     notice('The program has no interrupt routine');
     return;

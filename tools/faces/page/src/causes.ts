@@ -5,12 +5,16 @@ import { bring_into_view } from './timeline/view';
 import type { Exchange } from './exchanges';
 import type { Cause, Done, Past, Value } from './protocol';
 
+const kMostSteps = 200;
+
+/** The answer comes to the front unless the reader has chosen another pane meanwhile. */
 async function ask(question: string, line: string): Promise<void> {
-  const at_ns = state.past?.now_ns ?? 0;
+  const at_ns = state.past?.now_ns ?? 0, { pane, side } = state;
   const reply = await command<Cause>(line);
   if (reply.error !== undefined) return;
-  state.trail.push({ question, at_ns, text: reply.text.trimEnd(), cause: reply.json });
-  show_pane('causes');
+  state.trail = [...state.trail, { question, at_ns, text: reply.text.trimEnd(), cause: reply.json }].slice(-kMostSteps);
+  if (state.pane === pane && state.side === side) show_pane('causes');
+  changed();
 }
 
 function named(address: string): string {

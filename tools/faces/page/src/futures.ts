@@ -1,7 +1,7 @@
 // Two futures: the one that has been is kept from a moment on, something is changed there, and what comes then stands above it,
 // with what differs marked.
 import { changed, notice, state } from './state';
-import { also_seen, go_to, move, Seen } from './session';
+import { also_seen, move_on, run_to, Seen, take_over } from './session';
 import { first_after } from './timeline/scale';
 import { spans_between } from './timeline/view';
 import { moment_text, moment_word } from './words';
@@ -23,35 +23,47 @@ function all_known(): string[] {
   return [...new Set([...state.watched, ...shown])];
 }
 
+/** Runs from the newest moment on to that one. Returns whether nothing else is wanted meanwhile. */
+async function run_from_newest(until_ns: number, is_wanted: () => boolean): Promise<boolean> {
+  if ((state.past?.newest_ns ?? 0) >= until_ns) return is_wanted();
+  if (state.past?.in_the_past) await move_on('at end');
+  if (is_wanted()) await run_to(until_ns, is_wanted);
+  return is_wanted();
+}
+
+let is_keeping = false;
+
 /** Keeps what comes after the present moment, which is run if it has not been yet; ends the comparison if there is one. */
 export async function compare_futures(): Promise<void> {
+  if (is_keeping) return;
   if (state.first_future) {
     state.first_future = null;
     changed();
     return;
   }
+  is_keeping = true;
+  await keep_future(take_over());
+  is_keeping = false;
+}
+
+/** As far as it has been run: a breakpoint may have ended it before. */
+async function keep_future(is_wanted: () => boolean): Promise<void> {
   const past = state.past;
   if (!past) return;
-  const at_ns = past.now_ns, until_ns = end_of_first(at_ns, past.newest_ns);
-  if (past.newest_ns < until_ns) {
-    if (past.in_the_past) await move('at end');
-    await move(`continue ${moment_word(until_ns - past.newest_ns)}`);
-  }
-  const spans = await spans_between(at_ns, until_ns, kElements, all_known());
-  await go_to(at_ns);
-  if (!spans) return;
-  state.first_future = { at_ns, until_ns, spans };
+  const at_ns = past.now_ns;
+  if (!await run_from_newest(end_of_first(at_ns, past.newest_ns), is_wanted)) return;
+  const spans = await spans_between(at_ns, Math.max(at_ns + 1, state.past!.newest_ns), kElements, all_known());
+  if (!is_wanted()) return;
+  await move_on(`at ${moment_word(at_ns)}`);
+  if (!is_wanted() || !spans) return;
+  state.first_future = { at_ns, until_ns: spans.to_ns, spans };
   state.futures_part_ns = null;
   notice('This future is kept, below each track. Now switch an input, write a value or send a frame, and Run: what differs is marked.');
 }
 
 /** Runs as far as the first future goes, so that both can be compared. */
 export async function run_second(): Promise<void> {
-  const first = state.first_future, past = state.past;
-  if (!first || !past) return;
-  if (past.in_the_past) await move('at end');
-  const newest = state.past!.newest_ns;
-  if (newest < first.until_ns) await move(`continue ${moment_word(first.until_ns - newest)}`);
+  if (state.first_future) await run_from_newest(state.first_future.until_ns, take_over());
 }
 
 function key_of(one: Span): string {

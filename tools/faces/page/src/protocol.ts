@@ -23,6 +23,8 @@ export interface Reply<Json = unknown> {
   json: Json | null;
   moved: boolean;
   interrupted?: boolean;
+  /** A stop came before it: nothing of it was done. */
+  undone?: boolean;
   error?: string;
 }
 

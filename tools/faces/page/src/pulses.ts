@@ -22,10 +22,6 @@ export function is_pulsing(address: string): boolean {
   return trains.has(address);
 }
 
-export function any_pulses(): boolean {
-  return trains.size > 0;
-}
-
 /** A session begins: nothing pulses in it. */
 export function forget_pulses(): void {
   trains.clear();
@@ -36,9 +32,10 @@ export async function toggle_pulses(row: PointRow): Promise<void> {
     await switch_to(row.address, 0);
     return;
   }
-  trains.set(row.address, { row, next_ns: state.past?.now_ns ?? 0, level: 1 });
+  const train: Train = { row, next_ns: state.past?.now_ns ?? 0, level: 1 };
+  trains.set(row.address, train);
   changed();
-  if (state.hello?.live) pulse_by_clock(row.address);
+  if (state.hello?.live) void pulse_by_clock(train);
 }
 
 /** Returns whether the text is a frequency; then it is that of the row from the next edge on. */
@@ -75,11 +72,18 @@ export async function switch_due(now_ns: number): Promise<void> {
   }
 }
 
-/** A run that follows the clock goes on by itself: there the edges follow the reader's clock. */
-function pulse_by_clock(address: string): void {
-  const train = trains.get(address);
-  if (!train) return;
-  void switch_to(address, train.level);
-  train.level = 1 - train.level;
-  setTimeout(() => { if (trains.get(address) === train) pulse_by_clock(address); }, half_period_ns(train.row) / 1e6);
+const kLook = 50;  // ms until it is seen whether there is a run
+
+/** A run that follows the clock goes on by itself: there the edges follow the reader's clock, while it goes on. */
+async function pulse_by_clock(train: Train): Promise<void> {
+  for (let next = performance.now(); trains.get(train.row.address) === train;) {
+    const runs = state.running && state.past?.in_the_past === false;
+    if (runs) {
+      await switch_to(train.row.address, train.level);
+      train.level = 1 - train.level;
+    }
+    const now = performance.now();
+    next = Math.max(now, runs ? next + half_period_ns(train.row) / 1e6 : now + kLook);
+    await new Promise((done) => setTimeout(done, next - now));
+  }
 }

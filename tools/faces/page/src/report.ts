@@ -2,7 +2,7 @@
 import { changed, notice, show_pane, state, the_engine } from './state';
 import { go_to_verdict } from './causes';
 import { exchanges_of, is_unanswered } from './exchanges';
-import { when_begun } from './session';
+import { unless_taken_over, when_begun } from './session';
 import { spans_between } from './timeline/view';
 import type { Openable, Report, ReportedRun } from './protocol';
 
@@ -48,11 +48,15 @@ const kShort = 600e9;  // ns: the end of a shorter run is computed before one ha
 const kMostFrames = 20000;
 
 /** Where a request of `send` or `master` had no answer, the report opens: what they say has waited for all of them. */
-async function open_at_unanswered(): Promise<void> {
+async function open_at_unanswered(may_go: boolean): Promise<void> {
   const run = state.report?.runs[state.run ?? 0], end_ns = run?.recordings?.[state.recording ?? 0]?.end[2] ?? 0;
   if (!['send', 'master'].includes(state.report?.verb ?? '') || end_ns > kShort) return;
-  state.unanswered = exchanges_of(await spans_between(0, end_ns, kMostFrames), Infinity).filter(is_unanswered);
-  if (state.unanswered[0]) await go_to_verdict(state.unanswered[0]);
+  const is_wanted = unless_taken_over(), { run: number, recording } = state;
+  const unanswered = exchanges_of(await spans_between(0, end_ns, kMostFrames), Infinity).filter(is_unanswered);
+  if (state.run !== number || state.recording !== recording) return;
+  state.unanswered = unanswered;
+  changed();
+  if (may_go && is_wanted() && state.unanswered[0]) await go_to_verdict(state.unanswered[0]);
 }
 
 /** Opens a run, at what it found or else at its end; the end of a long one is computed when one goes there. */

@@ -1,10 +1,11 @@
 // Run and Pause. A session that follows the clock runs by itself; another one is run piece by piece, at the pace that was chosen.
 import type { Stopped } from './protocol';
 import { changed, state, the_engine } from './state';
-import { any_pulses, switch_due, time_to_edge_ns } from './pulses';
-import { begin_anew, command, print, say_why_stopped, take_over } from './session';
+import { switch_due, time_to_edge_ns } from './pulses';
+import { begin_to_move, print, run_piece_of, say_why_stopped, take_over } from './session';
 
-const kPiece = 50;        // ms of the reader's time that a piece takes
+const kPiece = 50;         // ms of the reader's time that a piece takes
+const kLongPiece = 1000;   // as fast as it goes: between pieces the panes are brought up to date. A command does not wait for its end
 const kWithoutEnd = '24h';
 
 /** What does not end a run: its length has passed, or an answer has come, which the panes show. */
@@ -14,7 +15,9 @@ const pause_of = (ms: number): Promise<void> => new Promise((done) => setTimeout
 
 /** Runs that long without an edge of a pulse train. Returns whether the run goes on. */
 async function run_on(length_ns: number): Promise<boolean> {
-  const reply = await command<Stopped>(`continue ${Math.max(1, Math.round(length_ns))}ns`);
+  const is_long = state.pace === 0 && the_engine().can_be_stopped;
+  const reply = await run_piece_of<Stopped>(`continue ${Math.max(1, Math.round(length_ns))}ns`, is_long);
+  if (reply.gave_way) return true;
   if (reply.error !== undefined || reply.interrupted) return false;
   if (reply.json?.stopped !== 'limit') print(reply.text);
   say_why_stopped(reply);
@@ -22,34 +25,36 @@ async function run_on(length_ns: number): Promise<boolean> {
 }
 
 /** Runs that long. Returns how long that took, in ms of the reader's time, or nothing if the run is over. */
-async function run_piece(length_ns: number): Promise<number | undefined> {
+async function run_piece(length_ns: number, goes_on: () => boolean): Promise<number | undefined> {
   const began = performance.now();
   const now = (): number => state.past?.now_ns ?? 0;
-  for (const end = now() + length_ns; now() < end && state.own_run;) {
+  for (const end = now() + length_ns; now() < end && goes_on();) {
     await switch_due(now());
-    if (!await run_on(Math.min(end - now(), time_to_edge_ns(now())))) return undefined;
+    if (!goes_on() || !await run_on(Math.min(end - now(), time_to_edge_ns(now())))) return undefined;
   }
   return performance.now() - began;
 }
 
 /** At the pace that is chosen, which may change meanwhile. */
-async function run_paced(): Promise<void> {
+async function run_paced(goes_on: () => boolean): Promise<void> {
+  const long_ms = the_engine().can_be_stopped ? kLongPiece : kPiece;
   let fastest = kPiece * 1e6;
-  while (state.own_run) {
-    const took = await run_piece(state.pace === 0 ? fastest : state.pace * kPiece * 1e6);
+  while (goes_on()) {
+    const took = await run_piece(state.pace === 0 ? fastest : state.pace * kPiece * 1e6, goes_on);
     if (took === undefined) return;
-    if (state.pace === 0) fastest *= Math.min(4, Math.max(0.25, kPiece / Math.max(1, took)));
+    if (state.pace === 0) fastest *= Math.min(4, Math.max(0.25, long_ms / Math.max(1, took)));
     else await pause_of(kPiece - took);
   }
 }
 
-async function run_without_end(): Promise<void> {
-  for (;;) {
-    const reply = await command<Stopped>(`continue ${kWithoutEnd}`);
+/** A run that follows the clock carries out commands meanwhile. */
+async function run_live(goes_on: () => boolean): Promise<void> {
+  while (goes_on()) {
+    const reply = await run_piece_of<Stopped>(`continue ${kWithoutEnd}`, false);
     if (reply.interrupted || reply.error !== undefined) return;
     print(reply.text);
     say_why_stopped(reply);
-    if (!state.own_run || !kGoesOn.has(reply.json?.stopped ?? '')) return;
+    if (!kGoesOn.has(reply.json?.stopped ?? '')) return;
   }
 }
 
@@ -57,17 +62,10 @@ export async function run(): Promise<void> {
   if (state.running) return;
   take_over();
   state.own_run = true;
-  state.running = true;
-  begin_anew();
-  changed();
-  if (state.hello?.live || (state.pace === 0 && the_engine().can_be_stopped && !any_pulses())) await run_without_end();
-  else await run_paced();
+  const is_last = begin_to_move();
+  await (state.hello?.live ? run_live : run_paced)(() => state.own_run && is_last());
+  if (!is_last()) return;
   state.own_run = false;
   state.running = false;
   changed();
-}
-
-export function pause(): void {
-  state.own_run = false;
-  the_engine().stop();
 }

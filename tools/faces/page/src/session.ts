@@ -35,12 +35,40 @@ export class Seen {
 
 const kind_of = (line: string): string => line.split(' ', 1)[0]!;
 
-/** Carries out a command, and says what is wrong with it, until one of the same kind is carried out. */
-export async function command<Json = unknown>(line: string): Promise<Reply<Json>> {
-  const reply = await the_engine().command<Json>(line), kind = kind_of(line);
+/** Says what is wrong with a command, until one of the same kind is carried out. */
+function heard<Json>(line: string, reply: Reply<Json>): Reply<Json> {
+  const kind = kind_of(line);
   if (reply.error !== undefined) notice(reply.error, 'error', kind);
   else if (state.notice?.of === kind) notice('');
   return reply;
+}
+
+/** Carries out a command: during a piece of a run at once, and after a stop that has come before it. */
+export async function command<Json = unknown>(line: string): Promise<Reply<Json>> {
+  let reply: Reply<Json>;
+  do {
+    interrupt_piece();
+    reply = await the_engine().command<Json>(line);
+  } while (reply.undone);
+  return heard(line, reply);
+}
+
+/** A long piece of this page's run is under way, and has been asked to end for a command. */
+let in_piece = false, gives_way = false;
+
+function interrupt_piece(): void {
+  if (!in_piece || gives_way) return;
+  gives_way = true;
+  the_engine().stop();
+}
+
+/** Carries out a piece of a run. One that has only given way to a command counts as one whose length has passed. */
+export async function run_piece_of<Json = unknown>(line: string, is_long: boolean): Promise<Reply<Json> & { gave_way?: boolean }> {
+  in_piece = is_long;
+  gives_way = false;
+  const reply = await the_engine().command<Json>(line), gave_way = gives_way && reply.interrupted === true;
+  in_piece = gives_way = false;
+  return { ...heard(line, reply), gave_way };
 }
 
 /** The same without a word: queries of what may not be there. One that was dropped because a run was stopped is asked again. */
@@ -52,18 +80,23 @@ export async function query<Json>(line: string): Promise<Reply<Json>> {
 }
 
 const kChunk = 200;  // lines of the program that are asked for at once
-const chunks = new Set<number>();
+let chunks = new Map<number, Promise<void>>();  // here, or under way; another map of another program
 let seen_lines: [number, number] = [1, 60];
 
 /** The lines of the program around that one, unless they are here. */
-export async function fetch_chunk_of(line: number): Promise<void> {
+export function fetch_chunk_of(line: number): Promise<void> {
   const chunk = Math.floor(line / kChunk);
-  if (!state.outline || chunks.has(chunk)) return;
-  chunks.add(chunk);
-  const from = Math.max(1, chunk * kChunk);
-  const to = Math.min(state.outline.lines, (chunk + 1) * kChunk - 1);
+  if (!state.outline) return Promise.resolve();
+  let here = chunks.get(chunk);
+  if (!here) chunks.set(chunk, here = fetch_chunk(chunk, state.outline.lines));
+  return here;
+}
+
+async function fetch_chunk(chunk: number, all_lines: number): Promise<void> {
+  const from = Math.max(1, chunk * kChunk), to = Math.min(all_lines, (chunk + 1) * kChunk - 1), of_program = chunks;
   if (from > to) return;
   const reply = await query<{ text: Line[] }>(`listing ${from} ${to}`);
+  if (of_program !== chunks) return;
   if (reply.json) for (const one of reply.json.text) state.lines.set(one.line, one);
   else chunks.delete(chunk);
 }
@@ -106,18 +139,21 @@ function keep_sample(name: string, at_ns: number, number: number): void {
   if (samples.length > kSamples) samples.shift();
 }
 
+/** Each by the name that it was asked for by, which all values of `VB0:4` have. */
+function by_name(values: Value[]): Map<string, Value> {
+  const all = new Map<string, Value>();
+  for (const one of values) all.set(one.name, all.has(one.name) ? { ...one, error: `${one.name} is several values: one address a row` } : one);
+  return all;
+}
+
 async function fetch_values(): Promise<void> {
   const asked = asked_addresses();
   if (asked.length === 0) return;
   const reply = await query<{ at_ns: number; values: Value[] }>(`values ${asked.join(' ')}`);
   if (!reply.json) return;
-  const { at_ns, values } = reply.json;
-  state.values = new Map();
-  values.forEach((value, i) => {
-    const name = asked[i]!;
-    state.values.set(name, value);
-    if (value.error === undefined) keep_sample(name, at_ns, Number(value.number));
-  });
+  state.values = by_name(reply.json.values);
+  for (const name of state.samples.keys()) if (!state.values.has(name)) state.samples.delete(name);
+  for (const [name, value] of state.values) if (value.error === undefined) keep_sample(name, reply.json.at_ns, Number(value.number));
 }
 
 const values = new Seen(fetch_values);
@@ -151,14 +187,20 @@ function refresh_all(): void {
   others.forEach((one) => one.refresh());
 }
 
-/** The program's outline: first of all, and whenever another PLC is looked at. */
-async function get_acquainted(): Promise<void> {
-  chunks.clear();
+function forget_program(): void {
+  chunks = new Map();
   state.lines.clear();
   state.executions.clear();
   state.ladder.clear();
-  const reply = await query<Outline>('listing');
+}
+
+/** The program's outline: first of all, and whenever another PLC is looked at. */
+async function get_acquainted(): Promise<void> {
+  forget_program();
+  const of_program = chunks, reply = await query<Outline>('listing');
+  if (of_program !== chunks) return;
   if (reply.json) {
+    forget_program();  // what was in view meanwhile was asked for by the outline of the one before
     state.outline = reply.json;
     propose_points(reply.json);
   }
@@ -176,6 +218,8 @@ function is_another(hello: Hello): boolean {
 
 /** The run that was known is asked for anew: what is true of it may have changed meanwhile. */
 function forget_answers(): void {
+  take_over();
+  ++movements;
   state.running = false;
   state.own_run = false;
   state.spans = null;
@@ -208,9 +252,9 @@ function show_picture(): void {
   state.window = { from_ns, to_ns: to_ns + (to_ns - from_ns) / 30 };  // room for the present at its end
 }
 
-let at_first_moment = async (): Promise<void> => {};
-/** What is done once the page stands where it begins, unless its address names a moment. */
-export function when_begun(does: () => Promise<void>): void {
+let at_first_moment = async (_may_go: boolean): Promise<void> => {};
+/** What is done once the page stands where it begins, unless its address names a moment; it may go on from there unless the reader has. */
+export function when_begun(does: (may_go: boolean) => Promise<void>): void {
   at_first_moment = does;
 }
 
@@ -218,8 +262,9 @@ export function when_begun(does: () => Promise<void>): void {
 async function follow_link(): Promise<void> {
   const named = moment_of_link(location.hash), asked = named ?? state.first_moment ?? undefined;
   state.first_moment = null;
-  if (asked !== undefined && asked !== state.past?.now_ns) await (named === undefined ? go_to : go_to_named)(asked);
-  if (named === undefined) await at_first_moment();
+  if (named !== undefined && named !== state.past?.now_ns) return go_to_named(named);
+  const is_there = asked === undefined || asked === state.past?.now_ns || await go_to(asked);
+  if (named === undefined) await at_first_moment(is_there);
 }
 
 /** The inputs and outputs of the program, its symbols and the first bytes of the CPU, as switches and lamps. */
@@ -250,7 +295,7 @@ export function notified(note: Notification): void {
       void get_acquainted().then(follow_link);
       break;
     case 'moved':
-      if (note.by !== '' && !state.own_run) state.running = false;
+      if (!state.own_run) state.running = note.by === '';  // a run that another page has begun, perhaps before this one was there
       came_to(note.now);
       break;
     case 'changed':
@@ -314,7 +359,13 @@ let tasks = 0;
 
 /** What takes long is given up when something else is wanted. Returns whether nothing has been since. */
 export function take_over(): () => boolean {
-  const mine = ++tasks;
+  ++tasks;
+  return unless_taken_over();
+}
+
+/** The same for what begins by itself: it ends nothing that the reader wants. */
+export function unless_taken_over(): () => boolean {
+  const mine = tasks;
   return () => mine === tasks;
 }
 
@@ -324,7 +375,30 @@ export function begin_anew(): void {
   state.printed = [];
 }
 
-/** Carries out something that moves the session; what it says is shown where it stops. */
+let movements = 0;
+
+/** Something moves the session from now on. Returns whether nothing else has begun to since. */
+export function begin_to_move(): () => boolean {
+  const mine = ++movements;
+  state.running = true;
+  begin_anew();
+  changed();
+  return () => mine === movements;
+}
+
+export function pause(): void {
+  state.own_run = false;
+  the_engine().stop();
+}
+
+/** Ends a run: then it is known how far it has come. */
+async function run_ended(): Promise<void> {
+  pause();
+  const reply = await query<Past>('past');
+  if (reply.json) state.past = reply.json;
+}
+
+/** Carries out something that moves the session, which ends a run; what it says is shown where it stops. */
 export async function move<Json = unknown>(line: string): Promise<Reply<Json>> {
   take_over();
   return move_on<Json>(line);
@@ -332,31 +406,40 @@ export async function move<Json = unknown>(line: string): Promise<Reply<Json>> {
 
 /** The same as a step of something that goes on after it. */
 export async function move_on<Json = unknown>(line: string): Promise<Reply<Json>> {
-  state.running = true;
-  begin_anew();
-  changed();
-  const reply = await command<Json>(line);
+  if (state.own_run) pause();
+  const is_last = begin_to_move();
+  const reply = heard(line, await the_engine().command<Json>(line));
   say_why_stopped(reply as Reply<any>);
-  state.running = false;
+  if (is_last()) state.running = false;
   changed();
   return reply;
 }
 
-/** A moment that has not been yet is run to. */
-export async function go_to(ns: number): Promise<void> {
-  const newest = state.past?.newest_ns ?? 0;
-  const wanted = Math.max(0, Math.round(ns));
-  if (wanted <= newest) {
-    await move(`at ${moment_word(wanted)}`);
-    return;
+/** Runs to a moment or a stop point: an answer to a master's request, at which `continue` ends, is none. */
+export async function run_to(end_ns: number, is_wanted: () => boolean): Promise<Reply<Stopped>> {
+  const left = (): number => end_ns - (state.past?.now_ns ?? end_ns);
+  for (;;) {
+    const run = await move_on<Stopped>(`continue ${moment_word(left())}`);
+    if (!is_wanted() || run.interrupted || run.json?.stopped !== 'answer' || left() <= 0) return run;
   }
-  if (state.past?.in_the_past) await move('at end');
-  await move(`continue ${moment_word(wanted - newest)}`);
+}
+
+/** A moment that has not been yet is run to. Returns whether nothing else is wanted meanwhile. */
+export async function go_to(ns: number): Promise<boolean> {
+  const wanted = Math.max(0, Math.round(ns)), is_wanted = take_over();
+  if (state.own_run) await run_ended();
+  if (wanted <= (state.past?.newest_ns ?? 0)) {
+    await move_on(`at ${moment_word(wanted)}`);
+    return is_wanted();
+  }
+  if (state.past?.in_the_past && (await move_on('at end')).interrupted) return false;
+  if (is_wanted()) await run_to(wanted, is_wanted);
+  return is_wanted();
 }
 
 /** Goes to a moment that someone has named. The CPU stands between instructions only: it says so if none begins right then. */
 export async function go_to_named(ns: number): Promise<void> {
-  await go_to(ns);
+  if (!await go_to(ns)) return;
   const past = state.past, late_ns = (past?.now_ns ?? 0) - Math.max(0, Math.round(ns));
   if (!past || late_ns <= 0 || state.notice) return;
   const what = past.op === null ? 'the next moment at which the CPU can stand' : 'the next one';

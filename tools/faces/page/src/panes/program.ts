@@ -1,6 +1,6 @@
 // Program status: the listing with power flow and values at the moment where the session stands. Only the lines in view are made.
 import { h, is_press, kept, type Child, type Part } from '../dom';
-import { command, fetch_chunk_of, go_to, see_lines } from '../session';
+import { command, fetch_chunk_of, go_to, see_lines, take_over } from '../session';
 import { changed, notice, state } from '../state';
 import { operand_text } from '../formats';
 import { duration_text, moment_text } from '../words';
@@ -66,7 +66,9 @@ async function next_with(wanted: string, lines: number): Promise<number> {
 async function find(text: string): Promise<void> {
   if (!state.outline || text === '') return;
   state.view = 'stl';
-  found_at = await next_with(text.toLowerCase(), state.outline.lines);
+  const is_wanted = take_over(), found = await next_with(text.toLowerCase(), state.outline.lines);
+  if (!is_wanted()) return;
+  found_at = found;
   if (found_at === 0) {
     notice(`'${text}' is not in the program`);
     return;

@@ -1,5 +1,6 @@
 // What is between the two cursors, or in view without them: how many elements each track has there, how long they are, which
 // values an address had.
+import { take_over } from '../session';
 import { notice, show_dialog, state } from '../state';
 import { spans_between, window_of } from './view';
 import type { Span, SpanTrack } from '../protocol';
@@ -86,11 +87,12 @@ export function measured(track: SpanTrack, from_ns: number, to_ns: number): Meas
 export async function measure(): Promise<void> {
   const past = state.past, { a_ns, b_ns } = state.cursors;
   if (!past) return;
-  const view = window_of();
+  const view = window_of(), is_wanted = take_over();
   const from_ns = Math.max(past.oldest_ns, a_ns !== null && b_ns !== null ? Math.min(a_ns, b_ns) : view.from_ns);
   const to_ns = Math.min(past.newest_ns, a_ns !== null && b_ns !== null ? Math.max(a_ns, b_ns) : view.to_ns);
   // A reply cuts what reaches over its ends: with 1 ns more at each it is seen what does.
   const spans = to_ns > from_ns ? await spans_between(Math.max(past.oldest_ns, from_ns - 1), Math.min(past.newest_ns, to_ns + 1), kElements, state.watched) : null;
+  if (!is_wanted() || state.dialog !== null || state.menu !== null) return;
   if (!spans) {
     notice('There is nothing to measure yet');
     return;

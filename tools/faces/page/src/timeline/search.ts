@@ -1,11 +1,11 @@
 // Searches through the past: the nearest trouble, the next request without an answer, the longest answer, the longest scan.
 import { exchanges_of, is_unanswered, type Exchange } from '../exchanges';
 import { ask_why_latency } from '../causes';
-import { command, move, move_on, take_over } from '../session';
+import { command, move, run_to, take_over } from '../session';
 import { notice, state } from '../state';
 import { duration_text, moment_word } from '../words';
 import { bring_into_view, show_found, spans_between } from './view';
-import type { Answers, Reply, Span, Stopped, Stops } from '../protocol';
+import type { Answers, Span, Stops } from '../protocol';
 
 function has_trouble(span: Span): boolean {
   return span.error !== undefined || (span.errors ?? 0) > 0;
@@ -133,13 +133,7 @@ export async function find_longest_scan(): Promise<void> {
 
 const kLongestRun = 10e9;  // ns that are run for a condition when there is no past after this moment
 
-/** Runs to a moment or a stop point: an answer to a master's request, at which `continue` ends, is none. */
-async function run_past_answers(end_ns: number, is_wanted: () => boolean): Promise<Reply<Stopped>> {
-  for (;;) {
-    const run = await move_on<Stopped>(`continue ${moment_word(end_ns - (state.past?.now_ns ?? end_ns))}`);
-    if (!is_wanted() || run.json?.stopped !== 'answer' || (state.past?.now_ns ?? end_ns) >= end_ns) return run;
-  }
-}
+const kPassed = new Set(['limit', 'answer']);
 
 /** Goes to the next moment at which a condition comes to hold: through the past, or by running on. */
 export async function find_condition(condition: string): Promise<void> {
@@ -149,9 +143,9 @@ export async function find_condition(condition: string): Promise<void> {
   if (set.error !== undefined || !set.json) return;
   const number = Math.max(...set.json.stops.map((one) => one.number));
   const length = past.in_the_past ? past.newest_ns - past.now_ns : kLongestRun, end_ns = past.now_ns + length;
-  const run = await run_past_answers(end_ns, is_wanted);
+  const run = await run_to(end_ns, is_wanted);
   await command(`delete ${number}`);
-  if (!is_wanted() || run.json?.stopped === 'stop point') return;
+  if (!is_wanted() || !kPassed.has(run.json?.stopped ?? '')) return;  // found, paused, or it cannot run so far: that is said
   if (past.in_the_past) await move(`at ${moment_word(past.now_ns)}`);
   notice(`${condition} does not come to hold within ${duration_text(length)}`);
 }

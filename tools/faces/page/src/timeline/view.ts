@@ -3,7 +3,7 @@ import { also_seen, go_to, query, Seen } from '../session';
 import { changed, show_pane, state } from '../state';
 import { is_one_word } from '../formats';
 import { moment_word } from '../words';
-import type { Spans } from '../protocol';
+import type { Hello, Spans } from '../protocol';
 
 const kElements = 3000;
 const kLeastWindow = 2000;  // ns
@@ -76,13 +76,13 @@ const exchanges = new Seen(async () => {
   state.exchanges_before = from > past.oldest_ns;
   state.exchanges_after = to < past.newest_ns;
 });
-let exchanges_of_ns = -1;
+let exchanges_of: { hello: Hello | null; now_ns: number; newest_ns: number } | null = null;
 
-/** The line pane shows the exchanges around this moment; it asks again when that is another one. */
+/** The line pane shows the exchanges around this moment; it asks again when that is another one, or of another future or session. */
 export function see_exchanges(): void {
-  const now = state.past?.now_ns ?? 0;
-  if (now === exchanges_of_ns) return;
-  exchanges_of_ns = now;
+  const { now_ns = 0, newest_ns = 0 } = state.past ?? {}, { hello } = state, before = exchanges_of;
+  if (before?.hello === hello && before.now_ns === now_ns && before.newest_ns === newest_ns) return;
+  exchanges_of = { hello, now_ns, newest_ns };
   state.exchanges_around_ns = null;
   exchanges.refresh();
 }
