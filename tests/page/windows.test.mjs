@@ -78,6 +78,23 @@ test('s7200 ends at once when it is asked to, and each window says so', async ()
   await other.close();
 });
 
+test('a window that is opened while a run follows the clock shows that it goes on', async () => {
+  const live = await view('stl_programs/edge_counter.stl', '--realtime');
+  const one = await open(chrome, live.address);
+  await one.click('#do-run');
+  const other = await open(chrome, live.address);
+  for (const page of [one, other]) {
+    await page.waitForFunction(() => document.querySelector('#do-run').textContent === 'Pause');
+    const seen = await page.inputValue('#moment');
+    await page.waitForFunction((seen) => document.querySelector('#moment').value !== seen, seen, { timeout: 1500 });
+  }
+  await one.click('#do-run');
+  for (const page of [one, other]) await page.waitForFunction(() => document.querySelector('#do-run').textContent === 'Run');
+  await one.close();
+  await other.close();
+  await end(live.server);
+});
+
 test('a page connects to s7200 that is started at its address again, and begins anew', async () => {
   const words = [...kPump, '--token-file', path.join(folder, 'token')];
   let running = await view(...words);

@@ -19,12 +19,13 @@ constexpr std::string_view kCounts = "LD SM0.0\nINCW VW10\nLD I0.0\n= Q0.0\nMEND
 
 /// A page with two windows.
 struct Pages {
-  explicit Pages(std::string_view text = kCounts)
+  explicit Pages(std::string_view text = kCounts, bool live = false)
       : simulation(check_text(text, "count.stl", cpu214(), default_times(cpu214())).program) {
     simulation.power_up();
     history = std::make_unique<History>(simulation, History::Settings{});
     talk = std::make_unique<Conversation>(
-        *history, PageSettings{.program = "count.stl", .live_run = {}, .clock = [this] { return clock += kSecond; }},
+        *history,
+        PageSettings{.program = "count.stl", .live = live, .live_run = {}, .clock = [this] { return clock += kSecond; }},
         Post{[this](Client client, const std::string& message) { got.emplace_back(client, read(message)); },
              [this](const std::string& message) { got.emplace_back(0, read(message)); }});
   }
@@ -106,11 +107,13 @@ TEST(Page, OfEveryWindowHearsThatSomethingHasChanged) {
 }
 
 TEST(Page, HearsHowFarALongRunHasCome) {
-  Pages pages;
-  pages("continue 1s");
-  const auto news =
-      std::ranges::count_if(pages.got, [](const auto& one) { return one.second.value("event", "") == "moved"; });
-  EXPECT_GT(news, 3);
+  for (const bool live : {false, true}) {
+    Pages pages(kCounts, live);
+    pages(live ? "continue 20ms" : "continue 1s");  // the few instructions that it is told of are enough of one that is live
+    const auto news =
+        std::ranges::count_if(pages.got, [](const auto& one) { return one.second.value("event", "") == "moved"; });
+    EXPECT_GT(news, 3);
+  }
 }
 
 TEST(Page, GetsAtOnceWhatComesUpInARun) {
