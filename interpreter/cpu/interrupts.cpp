@@ -11,8 +11,6 @@ namespace {
 
 constexpr int kEdgeInputs = 4;  // I0.0–I0.3
 
-bool is_timed(std::uint8_t event) { return event == event::kTimed0 || event == event::kTimed1; }
-
 /// The overflow bits are reset when the queues are empty and the main program goes on (S7-200 manual C230-02, 10-120).
 void forget_overflow_if_idle(Core& core) {
   if (core.s.waiting == 0 && !core.s.in_interrupt) core.put_mask(sm::kInterruptStatus, sm::kQueueOverflow, false);
@@ -34,7 +32,7 @@ void attach(Core& core, std::uint8_t event, std::uint8_t routine) {
   if (high_speed_counters::use_event(core, event)) return core.run_error(RunError::PointTaken);
   core.s.attached[event] = routine;
   Time interval = 0;
-  if (is_timed(event)) {
+  if (event::is_timed(event)) {
     const std::uint8_t timer = event - event::kTimed0;
     interval = std::max(core.s.image[sm::kTimedInterval[timer]] * kMillisecond, core.model().shortest_timed_interval);
     core.s.timed_interval[timer] = interval;
@@ -52,7 +50,7 @@ void attach(Core& core, std::uint8_t event, std::uint8_t routine) {
 void detach(Core& core, std::uint8_t event) {
   State& s = core.s;
   s.attached[event] = kNotAttached;
-  if (is_timed(event)) core.cancel(kTimedInterrupt0 + event - event::kTimed0);
+  if (event::is_timed(event)) core.cancel(kTimedInterrupt0 + event - event::kTimed0);
   core.trace({.at = s.time, .kind = TraceKind::Detach, .event = event, .op = core.loop.op});
   InterruptQueue& queue = s.queue[static_cast<std::size_t>(find_event(event)->queue)];
   const auto begin = queue.entry.begin(), end = begin + queue.count;

@@ -1,6 +1,7 @@
 #include "interpreter/model/cpu_model.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/model/events.hpp"
@@ -38,8 +39,8 @@ std::string to_text(CpuSet cpus) {
 }
 
 // Facts 3.1 and 10.2. In the order of the 21x list the events that only 22x CPUs have come last.
-const std::vector<InterruptEvent>& all_events() {
-  static const std::vector<InterruptEvent> kTable{
+std::span<const InterruptEvent> all_events() {
+  static constexpr InterruptEvent kTable[] = {
       {event::kI00Rises, Queue::Io, 0, 2, kEveryCpu, "rising edge of I0.0"},
       {event::kI00Falls, Queue::Io, 4, 6, kEveryCpu, "falling edge of I0.0"},
       {event::kI01Rises, Queue::Io, 1, 3, kFrom214, "rising edge of I0.1"},
@@ -75,6 +76,7 @@ const std::vector<InterruptEvent>& all_events() {
       {event::kCounter3Reached, Queue::Io, 22, 19, kCpu22x, "HSC3: current value = preset value"},
       {event::kCounter5Reached, Queue::Io, 23, 23, kCpu22x, "HSC5: current value = preset value"},
   };
+  static_assert(std::size(kTable) == kEvents);
   return kTable;
 }
 

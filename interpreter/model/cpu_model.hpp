@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,8 +55,8 @@ struct InterruptEvent {
   std::uint8_t order(CpuSet cpu) const { return cpu & kCpu22x ? order_22x : order_21x; }
 };
 
-/// All events of the family.
-const std::vector<InterruptEvent>& all_events();
+/// All events of the family, by number.
+std::span<const InterruptEvent> all_events();
 /// Returns null for a number that no CPU has.
 const InterruptEvent* find_event(std::int64_t number);
 

@@ -42,4 +42,7 @@ enum Number : std::uint8_t {
   kCounter5Reached = 33,
 };
 
+/// SMB34 and SMB35 say how often they come.
+constexpr bool is_timed(std::uint8_t number) { return number == kTimed0 || number == kTimed1; }
+
 }  // namespace s7200::event

@@ -235,8 +235,9 @@ void find_restarted_timers(const Facts& facts, stl::Diagnostics& diagnostics) {
   Paths paths(program, facts.flow);
   for (const std::uint32_t op : all) {
     const std::uint32_t number = program.ops[op][1].at;
-    const bool timed = number == event::kTimed0 || number == event::kTimed1;
-    if (!timed || !facts.flow.nodes[op].powered || program.ops[op].in_segment || !paths.in_every_scan(op)) continue;
+    if (!event::is_timed(static_cast<std::uint8_t>(number)) || !facts.flow.nodes[op].powered || program.ops[op].in_segment ||
+        !paths.in_every_scan(op))
+      continue;
     diagnostics.push_back(warn(
         Warning::RestartedTimer, place(program, op),
         fmt::format("this ATCH starts the period of event {} again in every scan: the event never comes while scans are "
