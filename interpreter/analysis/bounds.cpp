@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "interpreter/analysis/flow/kept_away.hpp"
 #include "interpreter/analysis/longest_ways.hpp"
 #include "interpreter/analysis/timed_interrupts.hpp"
 #include "interpreter/base/bytes.hpp"
@@ -62,7 +63,7 @@ class BoundsBuilder {
     bounds_.routines.resize(facts_.flow.routines.size());
     std::vector<Bounds::OfEvent> all;
     for (const EventUse& use : calls_.events) {
-      if (!is_timed(use.number) || use.attached.empty()) continue;
+      if (!event::is_timed(use.number) || use.attached.empty()) continue;
       const auto periods = timed_periods(use.number - event::kTimed0);
       if (!periods) continue;
       for (const Attachment& attachment : use.attached)
@@ -87,6 +88,7 @@ class BoundsBuilder {
     if (saves_to_eeprom()) bounds_.scan += timed_.eeprom_save;
     for (const EventUse& use : calls_.events)
       if (!use.attached.empty()) bounds_.events.push_back(event(use));
+    if (!bounds_.events.empty()) disabled_ = longest_disabled();
     for (Bounds::OfEvent& event : bounds_.events) find_latency(event);
     bounds_.scan_with_interrupts = with_interrupts();
     for (std::size_t port = 0; port < timed_.model->ports; ++port)
@@ -192,11 +194,15 @@ class BoundsBuilder {
   }
 
   std::optional<Time> period(std::uint8_t number) const {
-    const auto found = std::ranges::find_if(kPorts, [&](const PortInfo& port) {
-      return number == port.received || number == port.sent || number == port.received_message;
-    });
-    if (found != kPorts.end()) return character_time(static_cast<std::size_t>(found - kPorts.begin()));
-    switch (number) {
+    switch (static_cast<event::Number>(number)) {
+      case event::kPort0Received:
+      case event::kPort0Sent:
+      case event::kPort0Message:
+        return character_time(0);
+      case event::kPort1Received:
+      case event::kPort1Sent:
+      case event::kPort1Message:
+        return character_time(1);
       case event::kTimed0:
       case event::kTimed1: {
         const auto periods = timed_periods(number - event::kTimed0);
@@ -205,9 +211,33 @@ class BoundsBuilder {
       case event::kT32Reached:
       case event::kT96Reached:
         return kMillisecond;
-      default:
-        return {};
+      case event::kI00Rises:
+      case event::kI00Falls:
+      case event::kI01Rises:
+      case event::kI01Falls:
+      case event::kI02Rises:
+      case event::kI02Falls:
+      case event::kI03Rises:
+      case event::kI03Falls:
+      case event::kCounter0Reached:
+      case event::kCounter1Reached:
+      case event::kCounter1Turned:
+      case event::kCounter1Reset:
+      case event::kCounter2Reached:
+      case event::kCounter2Turned:
+      case event::kCounter2Reset:
+      case event::kPulses0Complete:
+      case event::kPulses1Complete:
+      case event::kCounter0Turned:
+      case event::kCounter0Reset:
+      case event::kCounter4Reached:
+      case event::kCounter4Turned:
+      case event::kCounter4Reset:
+      case event::kCounter3Reached:
+      case event::kCounter5Reached:
+        break;  // as often as inputs and pulses bring them
     }
+    return {};
   }
 
   Bounds::OfEvent event(const EventUse& use) const {
@@ -221,19 +251,22 @@ class BoundsBuilder {
     return of;
   }
 
+  /// The longest time from a DISI to its ENI. Nothing: interrupts may stay disabled for longer than is known.
+  std::optional<Time> longest_disabled() const {
+    const auto stretches = disabled_stretches(facts_.program, facts_.flow, calls_.disabling);
+    if (!stretches) return {};
+    Time longest = 0;
+    for (const DisabledStretch& stretch : *stretches) {
+      const LongestWay way = ways_.of_stretch(stretch.first, stretch.end, usual_);
+      if (!way.loops.empty()) return {};
+      longest = std::max(longest, way.time);
+    }
+    return longest;
+  }
+
   /// The longest time between two places where an interrupt may come.
   std::optional<Time> longest_wait() const {
-    Time wait = longest_instruction_;
-    for (const std::uint32_t disi : calls_.disabling) {
-      const auto enabled = std::ranges::find_if(calls_.enabling, [&](std::uint32_t op) {
-        return op > disi && facts_.flow.nodes[op].routine == facts_.flow.nodes[disi].routine;
-      });
-      if (enabled == calls_.enabling.end()) return {};
-      const LongestWay way = ways_.of_stretch(disi, *enabled + 1, usual_);
-      if (!way.loops.empty()) return {};
-      wait = std::max(wait, way.time);
-    }
-    return wait;
+    return disabled_ ? std::optional(std::max(longest_instruction_, *disabled_)) : std::nullopt;
   }
 
   /// The longest other routine may just have begun; events that are served before come as often as they can meanwhile, and
@@ -261,7 +294,9 @@ class BoundsBuilder {
         [&](const Bounds::OfEvent& other) { return std::ranges::find(before, &other) != before.end(); });
   }
 
+  /// Where interrupts do not stay disabled, none waits when a scan begins.
   std::optional<Time> with_interrupts() const {
+    if (!disabled_) return {};
     return settled(bounds_.scan, [](const Bounds::OfEvent& event, Time time) { return time / *event.period + 1; });
   }
 
@@ -290,7 +325,6 @@ class BoundsBuilder {
   static bool is_of_port(std::uint8_t event, std::size_t port) {
     return event == kPorts[port].received || event == kPorts[port].sent || event == kPorts[port].received_message;
   }
-  static bool is_timed(std::uint8_t event) { return event == event::kTimed0 || event == event::kTimed1; }
 
   /// The routines that receive: those of a port's events, and of timed interrupts, which measure the silence after them.
   std::set<std::uint32_t> receiving(std::size_t port, bool by_time) const {
@@ -298,7 +332,7 @@ class BoundsBuilder {
     for (const EventUse& use : calls_.events)
       for (const Attachment& attachment : use.attached)
         if (attachment.routine &&
-            (by_time ? is_timed(use.number) : is_of_port(use.number, port) && use.number != kPorts[port].sent))
+            (by_time ? event::is_timed(use.number) : is_of_port(use.number, port) && use.number != kPorts[port].sent))
           all.insert(*attachment.routine);
     return all;
   }
@@ -358,7 +392,8 @@ class BoundsBuilder {
   /// The longest time that a timed interrupt, or RCV, waits after the last character; nothing if that is not known.
   std::optional<Time> longest_silence(std::size_t port, bool timed) const {
     Time longest = 0;
-    const auto take = [&](std::optional<std::vector<std::int64_t>> written) {
+    const auto take = [&](const std::optional<std::vector<std::int64_t>>& written, Time least) {
+      longest = std::max(longest, least);
       if (written && !written->empty()) longest = std::max(longest, *std::ranges::max_element(*written) * kMillisecond);
       return written.has_value();
     };
@@ -366,10 +401,12 @@ class BoundsBuilder {
       const bool used = timed && std::ranges::any_of(calls_.events, [&](const EventUse& use) {
                           return use.number == event::kTimed0 + timer && !use.attached.empty();
                         });
-      if (used && !take(constants_written(facts_, sm::kTimedInterval[timer], Width::Byte))) return {};
+      const auto interval = constants_written(facts_, sm::kTimedInterval[timer], Width::Byte);
+      if (used && !take(interval, timed_.model->shortest_timed_interval)) return {};
     }
     const bool receives = timed_.receives_messages[port];
-    if (receives && !take(constants_written(facts_, kPorts[port].message + sm::message::kTimeout, Width::Word))) return {};
+    const auto timeout = constants_written(facts_, kPorts[port].message + sm::message::kTimeout, Width::Word);
+    if (receives && !take(timeout, 0)) return {};
     return longest;
   }
 
@@ -397,14 +434,17 @@ class BoundsBuilder {
     const auto silence = longest_silence(port, waits);
     const auto is_received = [&](std::uint8_t event) { return is_of_port(event, port) && event != kPorts[port].sent; };
     const Time others =
-        longest_routine([&](std::uint8_t event) { return !is_of_port(event, port) && !(waits && is_timed(event)); });
-    Time time = *answers;
-    if (!by_characters.empty()) time += idle.instruction + others + longest_routine(is_received);
-    if (waits) time += idle.instruction + others + longest_routine(is_timed);
-    if (silence)
-      answer.time = settled(
-          time + *silence, [](const Bounds::OfEvent& event, Time until) { return until / *event.period + 1; },
-          [&](const Bounds::OfEvent& event) { return !is_of_port(event.event, port) && !(waits && is_timed(event.event)); });
+        longest_routine([&](std::uint8_t event) { return !is_of_port(event, port) && !(waits && event::is_timed(event)); });
+    if (!silence || !disabled_) return answer;
+    const Time begins = std::max(idle.instruction, *disabled_) + others;
+    Time time = *answers + *silence;
+    if (!by_characters.empty()) time += begins + longest_routine(is_received);
+    if (waits) time += begins + longest_routine(event::is_timed);
+    answer.time = settled(  // with those that wait when the last character comes
+        time, [begins](const Bounds::OfEvent& event, Time until) { return (until + begins) / *event.period + 1; },
+        [&](const Bounds::OfEvent& event) {
+          return !is_of_port(event.event, port) && !(waits && event::is_timed(event.event));
+        });
     return answer;
   }
   bool transmits(const std::set<std::uint32_t>& routines, std::size_t port) const {
@@ -423,7 +463,8 @@ class BoundsBuilder {
   const Waiter& waiter_;
   LongestWays ways_;
   LongestWays::Assumed usual_{};
-  Time longest_instruction_ = 0;  // of the main program, with what it calls
+  Time longest_instruction_ = 0;      // of the main program, with what it calls
+  std::optional<Time> disabled_ = 0;  // longest_disabled(), of a program with interrupts
   Bounds bounds_{};
 };
 

@@ -258,9 +258,7 @@ class Protection {
   };
 
   Barrier& of_all() {
-    const auto enables = [](const Op& op) { return op.instruction->effect == Effect::EnablesInterrupts; };
-    const auto disables = [](const Op& op) { return op.instruction->mnemonic == "DISI"; };
-    if (!of_all_) of_all_.emplace(barrier({enables, disables}));
+    if (!of_all_) of_all_.emplace(barrier(gate_of_all_interrupts()));
     return *of_all_;
   }
 
@@ -475,7 +473,7 @@ class RaceFinder {
     });
   }
 
-  /// Whether a box reads and writes it again in one go, or reads it for what follows.
+  /// Whether a box reads it again for what follows. One that reads and writes it in one instruction is no read of it.
   bool rereads(std::size_t step, const Bits& shared) const {
     return std::ranges::any_of(main_.steps[step].accesses, [&](const Access& access) {
       return access.role == Role::In && access.of_operand && access.bits == shared;

@@ -1,5 +1,7 @@
 #include "interpreter/analysis/flow/kept_away.hpp"
 
+#include <algorithm>
+#include <set>
 #include <string_view>
 
 #include "interpreter/base/bytes.hpp"
@@ -26,6 +28,26 @@ bool runs_a_pass(const Program& program, const Op& loop) {
   return is_constant(loop[1]) && is_constant(loop[2]) && value(loop[1]) <= value(loop[2]);
 }
 
+/// From a DISI to the last op that may follow it while interrupts are not surely enabled again; of loops all.
+DisabledStretch until_enabled(const Program& program, const ControlFlow& flow, KeptAway& enabled, const Execution& execution,
+                              std::uint32_t disi) {
+  const Routine& routine = flow.routines[execution.routine];
+  DisabledStretch stretch{disi, disi + 1};
+  std::set<std::uint32_t> seen{disi};
+  for (std::vector<std::uint32_t> waiting{disi}; !waiting.empty();) {
+    const std::uint32_t op = waiting.back();
+    waiting.pop_back();
+    const bool loops = program.ops[op].instruction->structure == Structure::Next;
+    const std::uint32_t first = loops ? program.ops[op].target - 1 : op;  // its FOR
+    stretch = {std::min(stretch.first, first), std::max(stretch.end, op + 1)};
+    for (const std::uint32_t next : flow.nodes[op].next)
+      if (next >= routine.first && next < routine.end && !enabled.whatever_flows(execution, next) &&
+          seen.insert(next).second)
+        waiting.push_back(next);
+  }
+  return stretch;
+}
+
 }  // namespace
 
 bool KeptAway::in_front(const Execution& execution, std::uint32_t op) {
@@ -33,7 +55,12 @@ bool KeptAway::in_front(const Execution& execution, std::uint32_t op) {
   const Op& at = program_.ops[op];
   if (!now.reached) return false;
   if (at.instruction->rung.needs_power_flow || only_takes_power(at)) return now.powered;
-  return now.always && (at.is_contact || now.inactive);
+  return now.always() && (at.is_contact || now.inactive);
+}
+
+bool KeptAway::whatever_flows(const Execution& execution, std::uint32_t op) {
+  const Place now = place(execution, way(execution), op);
+  return now.reached && now.always() && now.inactive;
 }
 
 Execution KeptAway::called(const Execution& caller, std::uint32_t call) {
@@ -46,7 +73,7 @@ bool KeptAway::follows(const Execution& execution, std::uint32_t op) const {
 
 KeptAway::Place KeptAway::place(const Execution& execution, const Way& way, std::uint32_t op) const {
   Place now = way.places[op - routine_of(execution).first];
-  if (flow_.nodes[op].powered_if_active) now.always = now.powered;
+  if (flow_.nodes[op].powered_if_active) now.unpowered = true;  // the top is never 0
   return now;
 }
 
@@ -70,7 +97,7 @@ bool KeptAway::lead_on(const Execution& execution, Way& way, std::uint32_t op) {
   if (!now.reached) return false;
   const FlowNode& node = flow_.nodes[op];
   const bool by_power = program_.ops[op].instruction->effect == Effect::ConditionalEnd;
-  if (node.ends) way.behind &= by_power ? now.powered : now.always;
+  if (node.ends) way.behind &= by_power ? now.powered : now.always();
   const Place behind = after(execution, op, now);
   bool changes = false;
   const Routine& routine = routine_of(execution);
@@ -81,9 +108,8 @@ bool KeptAway::lead_on(const Execution& execution, Way& way, std::uint32_t op) {
     if (is_skipped && node.powered_if_active && runs_a_pass(program_, loop)) continue;
     Place& there = way.places[next - routine.first];
     const Place on = on_edge(op, next, behind);
-    const Place met{true, there.always && on.always, there.powered && on.powered, there.inactive && on.inactive};
-    changes |=
-        !there.reached || met.always != there.always || met.powered != there.powered || met.inactive != there.inactive;
+    const Place met{true, there.powered && on.powered, there.unpowered && on.unpowered, there.inactive && on.inactive};
+    changes |= met != there;
     there = met;
   }
   return changes;
@@ -95,37 +121,54 @@ KeptAway::Place KeptAway::on_edge(std::uint32_t op, std::uint32_t next, const Pl
   const bool jumps = structure == Structure::Jump || structure == Structure::SegmentExit;
   const bool by_power = (jumps && next != op + 1) || (structure == Structure::For && next == op + 1);
   Place on = after;
-  if (by_power) on.always = on.powered;
+  if (by_power) on.unpowered = on.powered;
   return on;
 }
 
 KeptAway::Place KeptAway::after(const Execution& execution, std::uint32_t op, Place now) {
   const Op& at = program_.ops[op];
-  const bool powered = flow_.nodes[op].powered_if_active;
   switch (at.instruction->structure) {
     case Structure::Call:
       if (!follows(execution, op)) return now;
       now.powered = behind(called(execution, op));
-      now.always = now.powered && (powered || now.always);
       return now;
     case Structure::SegmentBegin:
-      return {true, now.always, now.always, now.always};
+      return {true, now.always(), now.always(), now.always()};
     case Structure::SegmentEnd:
-      now.always &= now.inactive;
-      return {true, now.always, now.always, true};
+      now.set_always(now.always() && now.inactive);
+      return {true, now.powered, now.unpowered, true};
     case Structure::Next:  // leaves the top of the logic stack at 1
-      now.powered = now.always;
-      return now;
+      return {true, now.always(), true, now.inactive};
     default:
-      return after_box(at, powered, now);
+      return after_box(at, now);
   }
 }
 
-KeptAway::Place KeptAway::after_box(const Op& op, bool powered, Place now) const {
-  if (is_unread(op) || !keeps_top(op)) now.powered = now.always;
-  if (gate_.opens(op)) now.always = now.powered = false;
-  if (gate_.closes(op)) return {true, now.always || powered, true, now.inactive};
+KeptAway::Place KeptAway::after_box(const Op& op, Place now) const {
+  if (is_unread(op) || !keeps_top(op)) now.set_always(now.always());
+  if (only_takes_power(op)) now.unpowered = now.always();
+  if (gate_.opens(op)) now.powered = false;
+  if (gate_.closes(op)) now.powered = true;
   return now;
+}
+
+InterruptGate gate_of_all_interrupts() {
+  return {[](const Op& op) { return op.instruction->effect == Effect::EnablesInterrupts; },
+          [](const Op& op) { return op.instruction->mnemonic == "DISI"; }};
+}
+
+std::optional<std::vector<DisabledStretch>> disabled_stretches(const Program& program, const ControlFlow& flow,
+                                                               const std::vector<std::uint32_t>& disabling) {
+  const std::vector<bool> nothing(program.ops.size());
+  const InterruptGate gate = gate_of_all_interrupts();
+  KeptAway enabled(program, flow, nothing, {gate.closes, gate.opens});
+  std::vector<DisabledStretch> all;
+  for (const std::uint32_t disi : disabling) {
+    const Execution execution{flow.nodes[disi].routine, 0, true};
+    if (!enabled.behind(execution)) return {};
+    all.push_back(until_enabled(program, flow, enabled, execution, disi));
+  }
+  return all;
 }
 
 }  // namespace s7200

@@ -2,12 +2,15 @@
 //
 // Surely means: on every way that leads there. DISI has to have power flow on it, a FOR may run no pass, a segment may be
 // inactive, and the end of a pass comes in front of the next one. What has power flow in the rung of a DISI comes behind it.
+//
+// With the gate the other way round, where they are surely not disabled: on every way there, an ENI is behind the last DISI.
 #pragma once
 
 #include <compare>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -17,8 +20,20 @@ namespace s7200 {
 
 /// Which ops let interrupts come if they are executed, and which keep them away if they have power flow.
 struct InterruptGate {
-  std::function<bool(const Op&)> opens, closes;
+  std::function<bool(const Op&)> opens, closes;  ///< of instructions that need power flow
 };
+
+/// ENI and DISI.
+InterruptGate gate_of_all_interrupts();
+
+/// Ops of a routine, and what they call.
+struct DisabledStretch {
+  std::uint32_t first = 0, end = 0;
+};
+
+/// Where interrupts may be disabled from each DISI on; nothing if they may still be when the routine of one returns.
+std::optional<std::vector<DisabledStretch>> disabled_stretches(const Program& program, const ControlFlow& flow,
+                                                               const std::vector<std::uint32_t>& disabling);
 
 /// An execution of a routine: below how many calls, and whether interrupts are kept away when it begins.
 struct Execution {
@@ -37,6 +52,8 @@ class KeptAway {
 
   /// Whether no interrupt comes when an op of the routine is executed; one that needs power flow, when it has it.
   bool in_front(const Execution& execution, std::uint32_t op);
+  /// Whether none comes in front of it, with power flow and without.
+  bool whatever_flows(const Execution& execution, std::uint32_t op);
   /// Whether none comes when the routine returns.
   bool behind(const Execution& execution) { return way(execution).behind; }
   /// The execution that a CALL begins.
@@ -46,9 +63,13 @@ class KeptAway {
   /// What is so in front of an op.
   struct Place {
     bool reached = false;
-    bool always = true;    ///< interrupts are kept away, if the segment is active
-    bool powered = true;   ///< they are if the top of the logic stack is 1, too
-    bool inactive = true;  ///< they are if the segment is not active
+    bool powered = true;    ///< interrupts are kept away if the segment is active and the top of the logic stack is 1
+    bool unpowered = true;  ///< they are if it is active and the top is 0
+    bool inactive = true;   ///< they are if the segment is not active
+
+    bool always() const { return powered && unpowered; }
+    void set_always(bool now) { powered = unpowered = now; }
+    bool operator==(const Place&) const = default;
   };
   struct Way {
     std::vector<Place> places;  ///< by op of the routine
@@ -61,7 +82,7 @@ class KeptAway {
   bool follows(const Execution& execution, std::uint32_t op) const;
   bool lead_on(const Execution& execution, Way& way, std::uint32_t op);
   Place after(const Execution& execution, std::uint32_t op, Place now);
-  Place after_box(const Op& op, bool powered, Place now) const;
+  Place after_box(const Op& op, Place now) const;
   Place on_edge(std::uint32_t op, std::uint32_t next, const Place& after) const;
 
   const Program& program_;

@@ -152,6 +152,72 @@ TEST(Bounds, HaveNoLatencyWhereInterruptsStayDisabledOrAnEventHasNoPeriod) {
   EXPECT_FALSE(bounds("LD SM0.1\nATCH 0, 0\nENI\nMEND\nINT 0\nLD SM0.0\nRETI\n").scan_with_interrupts);
 }
 
+/// With the timed interrupt 0 attached and enabled in the first scan.
+Bounds with_timed(std::string_view main) {
+  return bounds(fmt::format("LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\n{}MEND\nINT 0\nLD SM0.0\nINCW VW0\nRETI\n", main));
+}
+
+TEST(Bounds, InterruptsWaitFromADisiToTheEniThatSurelyFollows) {
+  const auto latency = [](std::string_view main) { return with_timed(main).events.at(0).latency; };
+  EXPECT_EQ(latency("LD SM0.0\nDISI\nINCW VW2\nENI\n"), 30 * us + 40 * us);
+  EXPECT_EQ(latency("LD I0.0\nDISI\nINCW VW2\nENI\n"), 30 * us + 40 * us) << "with the power flow that DISI has";
+  EXPECT_EQ(latency("LD I0.0\nDISI\nLD SM0.0\nENI\n"), 30 * us + 40 * us);
+  EXPECT_EQ(latency("LD I0.0\nDISI\nLD I0.1\nENI\nLD SM0.0\nENI\n"), 50 * us + 40 * us) << "the first may have no power";
+  EXPECT_EQ(latency("LD I0.0\nDISI\nJMP 1\nLD SM0.0\nINCW VW2\nENI\nLBL 1\nLD SM0.0\nENI\n"), 70 * us + 40 * us)
+      << "the longest way leads through both";
+}
+
+TEST(Bounds, AnEniThatMayBePassedOverEndsNoDisi) {
+  for (const std::string_view main :
+       {"LD I0.0\nDISI\nLD I0.1\nENI\n", "LD SM0.0\nDISI\nLD I0.1\nJMP 1\nLD SM0.0\nENI\nLBL 1\n",
+        "LD SM0.0\nDISI\nLD I0.1\nEND\nLD SM0.0\nENI\n", "LD I0.0\nDISI\nA I0.1\nENI\n",
+        "LD SM0.0\nDISI\nFOR VW0, 1, VW2\nENI\nNEXT\n", "LD I0.0\nDISI\n"}) {
+    const Bounds open = with_timed(main);
+    EXPECT_TRUE(open.events.at(0).may_stay_disabled) << main;
+    EXPECT_FALSE(open.events.at(0).latency) << main;
+    EXPECT_FALSE(open.scan_with_interrupts) << main << "events that waited for several scans may come in one";
+  }
+}
+
+TEST(Bounds, ALoopThatReachesDisiAgainIsPartOfTheWait) {
+  EXPECT_EQ(with_timed("LD SM0.0\nFOR VW10, 1, 5\nDISI\nNEXT\nENI\n").events.at(0).latency, (10 + 5 * 20 + 10 + 40) * us);
+}
+
+TEST(Bounds, ASubroutineMayEnableInterruptsAgain) {
+  const std::string_view of_callee =
+      "LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nLD SM0.0\nDISI\nCALL 1\nMEND\nSBR 1\nLD SM0.0\nENI\nRET\n"
+      "INT 0\nLD SM0.0\nRETI\n";
+  EXPECT_EQ(bounds(of_callee).events.at(0).latency, 50 * us + 40 * us);
+}
+
+/// A slave that waits for silence with a timed interrupt; with instructions at the begin of the main program.
+std::string slave_with(std::string_view interval, std::string_view main) {
+  return fmt::format(
+      "LD SM0.1\nMOVB 16#09, SMB30\n{}ATCH 0, 8\nENI\n{}LD M0.0\nCALL 1\nR M0.0, 1\nMEND\n"
+      "SBR 1\nLD SM0.0\nXMT VB0, 0\nRET\n"
+      "INT 0\nLD SM0.0\nATCH 1, 10\nRETI\nINT 1\nLD SM0.0\nS M0.0, 1\nDTCH 10\nRETI\n",
+      interval, main);
+}
+
+TEST(Bounds, AnAnswerWaitsAtLeastForTheShortestTimedInterval) {
+  const auto time = [](std::string_view interval, const char* cpu) {
+    const auto program = program_of(slave_with(interval, ""), *find_cpu(cpu));
+    const Facts facts = facts_of(*program);
+    return bounds_of(facts, calls_of(*program, facts.flow), *program).answers.at(0).time;
+  };
+  ASSERT_TRUE(time("MOVB 5, SMB34\n", "214"));
+  EXPECT_EQ(time("MOVB 1, SMB34\n", "214"), time("MOVB 5, SMB34\n", "214")) << "5 ms on CPU 214";
+  EXPECT_EQ(time("MOVB 1, SMB34\n", "224"), *time("MOVB 5, SMB34\n", "224") - 4 * ms);
+  EXPECT_EQ(time("", "214"), *time("MOVB 5, SMB34\n", "214") - 2 * 10 * us) << "SMB34 is 0 then; without the MOVB";
+}
+
+TEST(Bounds, AnAnswerWaitsWhereInterruptsAreDisabled) {
+  const auto time = [](std::string_view main) { return bounds(slave_with("MOVB 5, SMB34\n", main)).answers.at(0).time; };
+  EXPECT_EQ(time("LD SM0.0\nDISI\nINCW VW2\nENI\n"), *time("LD SM0.0\nINCW VW2\n") + 2 * 20 * us + 2 * 20 * us)
+      << "two scans with DISI and ENI, and two interrupts that each wait for ENI in place of one instruction";
+  EXPECT_FALSE(time("LD I0.0\nDISI\nLD I0.1\nENI\n"));
+}
+
 /// Whoever waits, and asks to end after so many steps.
 struct Impatient {
   explicit Impatient(std::uint64_t most) : left(most) {}
