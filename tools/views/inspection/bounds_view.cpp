@@ -40,7 +40,7 @@ Both bounds_of(const Inspection& inspection) {
   return {with(*inspection.program), with(slow ? *slow : *inspection.program)};
 }
 
-bool is_wanted(const Inspection& inspection, const Routine& routine) {
+bool is_routine_wanted(const Inspection& inspection, const Routine& routine) {
   return inspection.selection.ops.empty() || std::ranges::any_of(inspection.selection.ops, [&](const Selection::Ops& each) {
            return each.first < routine.end && routine.first < each.end;
          });
@@ -58,7 +58,10 @@ std::string events_in_words(const std::vector<std::uint8_t>& events) {
   return fmt::format("{} {}", all, events.size() == 1 ? "comes" : "come");
 }
 
+std::string slowest_text(const std::optional<Time>& time) { return time ? ms(*time) : "no bound with the slowest times"; }
+
 std::string why_no_bound_with_interrupts(const Bounds& bounds) {
+  if (bounds.events.front().may_stay_disabled) return "they may stay disabled, which has no bound";
   std::vector<std::uint8_t> unknown;
   for (const Bounds::OfEvent& event : bounds.events)
     if (!event.period) unknown.push_back(event.event);
@@ -81,7 +84,7 @@ std::string routines_text(const Inspection& inspection, const Both& both) {
   std::string text = "Routines, with what they call\n";
   for (std::size_t i = 0; i < both.usual.routines.size(); ++i) {
     const Routine& routine = inspection.facts.flow.routines[i];
-    if (!is_wanted(inspection, routine)) continue;
+    if (!is_routine_wanted(inspection, routine)) continue;
     const Bounds::OfRoutine& usual = both.usual.routines[i];
     const std::string figures =
         fmt::format("{} {} ({})", at_most(inspection, usual.loops), ms(usual.time), ms(both.slow.routines[i].time));
@@ -108,7 +111,7 @@ std::string event_text(const Inspection& inspection, const Bounds::OfEvent& even
   text += fmt::format("; its routine takes {} {} ({})", at_most(inspection, event.loops), ms(event.longest_routine),
                       ms(slow.longest_routine));
   text += event.latency
-              ? fmt::format(", and begins at most {} ({}) after it", ms(*event.latency), ms(slow.latency.value_or(0)))
+              ? fmt::format(", and begins at most {} ({}) after it", ms(*event.latency), slowest_text(slow.latency))
               : ", and " + why_no_latency(event);
   if (event.period && event.longest_routine > *event.period)
     text += "; the routine is longer than the time between two of them";
@@ -125,8 +128,9 @@ std::string answers_text(const Inspection& inspection, const Both& both) {
     const Bounds::OfAnswer &answer = both.usual.answers[i], &slow = both.slow.answers[i];
     std::string line = fmt::format("port {}: from the last character of a request to the first of its answer ", answer.port);
     line += answer.time
-                ? fmt::format("{} {} ({})", at_most(inspection, answer.loops), ms(*answer.time), ms(slow.time.value_or(0)))
-                : "no bound: how long the program waits for silence, or how often interrupts come, is not known";
+                ? fmt::format("{} {} ({})", at_most(inspection, answer.loops), ms(*answer.time), slowest_text(slow.time))
+                : "no bound: how long the program waits for silence, how often interrupts come, or for how long it disables "
+                  "them, is not known";
     text += "  " + wrapped_at(line, 4, 2) + "\n";
   }
   return text.empty() ? text : "\nAnswers, while no other character comes\n" + text;
@@ -214,7 +218,7 @@ ordered_json bounds_json(const Inspection& inspection) {
   json["watchdog_ns"] = inspection.program->model->watchdog;
   json["routines"] = ordered_json::array();
   for (std::size_t i = 0; i < both.usual.routines.size(); ++i)
-    if (is_wanted(inspection, inspection.facts.flow.routines[i]))
+    if (is_routine_wanted(inspection, inspection.facts.flow.routines[i]))
       json["routines"].push_back({{"routine", routine_text(inspection.facts.flow.routines[i])},
                                   {"time_ns", both.usual.routines[i].time},
                                   {"slowest_ns", both.slow.routines[i].time},
