@@ -97,6 +97,14 @@ bool Selection::has_op(std::uint32_t op) const {
   return std::ranges::any_of(ops, [&](const Ops& each) { return op >= each.first && op < each.end; });
 }
 
+bool Selection::wants_memory(const std::vector<Bits>& bits) const {
+  return memory.empty() || std::ranges::any_of(bits, [&](const Bits& each) { return has(each); });
+}
+
+bool Selection::wants_ops(const std::vector<std::uint32_t>& which) const {
+  return ops.empty() || std::ranges::any_of(which, [&](std::uint32_t op) { return has_op(op); });
+}
+
 Result<Selection> parse_selection(std::span<const std::string> words, const Facts& facts) {
   Selection selection;
   for (const std::string& word : words)

@@ -30,6 +30,10 @@ struct Selection {
   bool everything() const { return memory.empty() && ops.empty(); }
   bool has(const Bits& bits) const;
   bool has_op(std::uint32_t op) const;
+  /// Whether it names no memory, or some of this.
+  bool wants_memory(const std::vector<Bits>& bits) const;
+  /// Whether it names no routine and no network, or one with one of these ops.
+  bool wants_ops(const std::vector<std::uint32_t>& which) const;
 };
 
 /// Words such as `VW10`, `VB0:16`, `Speed`, `MAIN`, `SBR_3`, `INT0`, `SBR_3:2` for a network of it, or the name of a block.

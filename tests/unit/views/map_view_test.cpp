@@ -37,7 +37,8 @@ TEST(MapView, TellsWhichRoutinesUseWhat) {
 
 TEST(MapView, TellsWhatOnlyRoutinesUseThatAreNeverExecuted) {
   constexpr std::string_view kProgram =
-      "LD SM0.0\nMOVB 1, VB2\nMEND\nSBR 1\nLD SM0.0\nMOVD 0, VD0\nMOVB 1, VB9\nCALL 2\nRET\nSBR 2\nLD SM0.0\nMOVB 1, VB10\nRET\n";
+      "LD SM0.0\nMOVB 1, VB2\nMEND\nSBR 1\nLD SM0.0\nMOVD 0, VD0\nMOVB 1, VB9\nCALL 2\nRET\nSBR 2\nLD SM0.0\nMOVB 1, "
+      "VB10\nRET\n";
   const ordered_json v = area(kProgram, "V");
   EXPECT_EQ(v["used"][0]["memory"], "VB0 to VB3");
   EXPECT_EQ(v["idle"], ordered_json::parse(R"([
@@ -45,7 +46,8 @@ TEST(MapView, TellsWhatOnlyRoutinesUseThatAreNeverExecuted) {
     {"memory": "VB3", "routines": ["SBR_1"]},
     {"memory": "VB9 to VB10", "routines": ["SBR_1", "SBR_2"]}])"));
   const std::string text = map_text(inspected(kProgram));
-  EXPECT_NE(text.find("  used only by routines that are never executed: VB0 to VB1 (SBR_1), VB3 (SBR_1), "), std::string::npos)
+  EXPECT_NE(text.find("  used only by routines that are never executed: VB0 to VB1 (SBR_1), VB3 (SBR_1), "),
+            std::string::npos)
       << text;
   EXPECT_EQ(area("LD SM0.0\nMOVB 1, VB2\nMEND\n", "V")["idle"], ordered_json::array());
 }
@@ -102,6 +104,29 @@ TEST(MapView, KeepsToTheAreaOfAnAddress) {
   const std::string text = map_text(inspected("LD I0.0\n= Q0.0\nMOVB 1, VB0\nMEND\n", {"QB0"}));
   EXPECT_EQ(text.find("V: variable memory"), std::string::npos) << text;
   EXPECT_EQ(text.find("Q: outputs"), 0U) << text;
+}
+
+TEST(MapView, TextAndJsonKeepToWhatIsAskedFor) {
+  constexpr std::string_view kProgram =
+      "LD I0.0\nTON T33, 25\nTON T37, 5\nLD I0.0\nLD I0.1\nCTU C5, 12\nLD SM0.0\nCALL 1\nMEND\nSBR 1\nLD I0.0\nTON T38, 5\n"
+      "MOVB 16#81, SMB31\nRET\n";
+  const auto names = [&](const char* kind, const std::string& about) {
+    const ordered_json map = map_json(inspected(kProgram, {about}));
+    std::string all;
+    for (const ordered_json& each : map[kind]) all += each["name"].get<std::string>() + " ";
+    return all;
+  };
+  EXPECT_EQ(names("timers", "T37"), "T37 ");
+  EXPECT_EQ(names("counters", "T37"), "");
+  EXPECT_EQ(names("timers", "SBR_1"), "T38 ");
+  EXPECT_EQ(names("counters", "C5"), "C5 ");
+  EXPECT_EQ(map_json(inspected(kProgram, {"SBR_1"}))["eeprom_savers"].size(), 1U);
+  EXPECT_EQ(map_json(inspected(kProgram, {"MAIN"}))["eeprom_savers"].size(), 0U);
+  const std::string text = map_text(inspected(kProgram, {"T37"}));
+  EXPECT_NE(text.find("  T37   TON, 100 ms, 5 = 0.5 s"), std::string::npos) << text;
+  EXPECT_EQ(text.find("  T33   TON"), std::string::npos) << text;
+  EXPECT_EQ(text.find("Counters"), std::string::npos) << text;
+  EXPECT_NE(map_text(inspected(kProgram, {"SBR_1"})).find("EEPROM: "), std::string::npos);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "interpreter/base/text/joined.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/printer.hpp"
 
@@ -51,6 +52,12 @@ std::string wrapped_at(std::string_view text, std::size_t indent, std::size_t us
     begins = false;
   }
   return all;
+}
+
+std::string list_text(std::size_t indent, std::string_view what, const std::vector<std::string>& all) {
+  if (all.empty()) return {};
+  const std::string text = fmt::format("{}: {}", what, stl::joined(all, [](const std::string& each) { return each; }));
+  return std::string(indent, ' ') + wrapped_at(text, indent + 2, indent) + "\n";
 }
 
 std::string row_text(const Inspection& inspection, const std::string& before, std::uint32_t op) {

@@ -86,6 +86,9 @@ std::string column(std::string text, std::size_t width);
 /// are taken.
 std::string wrapped_at(std::string_view text, std::size_t indent, std::size_t used = 0);
 
+/// `free: VB0, VB2 to VB9`, after `indent` blanks; nothing of an empty list.
+std::string list_text(std::size_t indent, std::string_view what, const std::vector<std::string>& all);
+
 /// A line of a table: what is before it, the place of an instruction, the instruction.
 std::string row_text(const Inspection& inspection, const std::string& before, std::uint32_t op);
 

@@ -75,9 +75,10 @@ std::string idle_text(const Inspection& inspection, const MemoryMap::AreaUse& ar
   return "  " + wrapped_at("used only by routines that are never executed: " + parts, 4, 2) + "\n";
 }
 
-std::string list_text(std::string_view what, const std::vector<Bits>& all) {
-  if (all.empty()) return {};
-  return "  " + wrapped_at(fmt::format("{}: {}", what, stl::joined(all, range_text)), 4, 2) + "\n";
+std::vector<std::string> texts(const std::vector<Bits>& all) {
+  std::vector<std::string> names;
+  for (const Bits& bits : all) names.push_back(range_text(bits));
+  return names;
 }
 
 /// `*AC1 in line 396, *VD150 in lines 769 and 771`, the first few of them.
@@ -126,8 +127,9 @@ std::string area_text(const Inspection& inspection, const CrossReference& refere
   std::string text = head_text(inspection, area);
   for (const MemoryMap::Used& used : area.used) text += used_text(inspection, used);
   text += idle_text(inspection, area);
-  if (area.area != Area::AC && area.area != Area::SM) text += perhaps_text(inspection, area) + list_text("free", area.free);
-  text += list_text("retentive", area.retentive);
+  if (area.area != Area::AC && area.area != Area::SM)
+    text += perhaps_text(inspection, area) + list_text(2, "free", texts(area.free));
+  text += list_text(2, "retentive", texts(area.retentive));
   const auto pointers = pointer_names(reference, area);
   if (!pointers.empty()) text += "  " + wrapped_at("pointers may reach it: " + stl::joined(pointers, map_name), 4, 2) + "\n";
   return text + "\n";
@@ -187,9 +189,9 @@ std::string eeprom_text(const Inspection& inspection, const MemoryMap& map) {
   return text + "\n";
 }
 
-std::string stand_ins_text(const Inspection& inspection) {
+std::string stand_ins_text(const std::vector<StandIn>& stand_ins) {
   std::string text;
-  for (const StandIn& stand_in : stand_ins_of(inspection.program->source))
+  for (const StandIn& stand_in : stand_ins)
     text += "  " +
             wrapped_at(fmt::format("VB{} to VB{}: {}, for {}", stand_in.memory, stand_in.memory + stand_in.bytes - 1,
                                    stand_in.file, stl::joined(stand_in.routines, map_name)),
@@ -198,21 +200,45 @@ std::string stand_ins_text(const Inspection& inspection) {
   return text.empty() ? text : "Memory of stand-ins for libraries\n" + text;
 }
 
-bool is_wanted(const Inspection& inspection, const MemoryMap::AreaUse& area) {
+bool is_area_wanted(const Inspection& inspection, const MemoryMap::AreaUse& area) {
   const Selection& selection = inspection.selection;
-  const bool memory = selection.memory.empty() || selection.has(area.all);
-  const bool routine = selection.ops.empty() || std::ranges::any_of(area.used, [&](const MemoryMap::Used& used) {
-                         return std::ranges::any_of(used.routines, [&](std::uint32_t i) {
-                           return selection.has_op(inspection.facts.flow.routines[i].first);
-                         });
-                       });
-  return memory && routine;
+  const auto is_used = [&](const MemoryMap::Used& used) {
+    return std::ranges::any_of(used.routines,
+                               [&](std::uint32_t i) { return selection.has_op(inspection.facts.flow.routines[i].first); });
+  };
+  return selection.wants_memory({area.all}) && (selection.ops.empty() || std::ranges::any_of(area.used, is_used));
 }
 
-std::vector<std::string> texts(const std::vector<Bits>& all) {
-  std::vector<std::string> names;
-  for (const Bits& bits : all) names.push_back(range_text(bits));
-  return names;
+/// What is asked for of the map, with the stand-ins, which are no part of it.
+struct WantedMap {
+  MemoryMap map;
+  std::vector<StandIn> stand_ins;
+};
+
+WantedMap wanted_map(const Inspection& inspection, const CrossReference& reference) {
+  WantedMap wanted{memory_map(inspection.facts, reference), stand_ins_of(inspection.program->source)};
+  const Selection& selection = inspection.selection;
+  MemoryMap& map = wanted.map;
+  const auto is_element_unwanted = [&](std::uint32_t values) {
+    return [&selection, values](const MemoryMap::Element& element) {
+      const Bits value = as_named({(values + 2 * element.number) * 8u, 16});
+      return !selection.wants_memory({value}) || !selection.wants_ops({element.op});
+    };
+  };
+  std::erase_if(map.areas, [&](const MemoryMap::AreaUse& area) { return !is_area_wanted(inspection, area); });
+  std::erase_if(map.timers, is_element_unwanted(image::kT));
+  std::erase_if(map.counters, is_element_unwanted(image::kC));
+  std::erase_if(map.data, [&](const MemoryMap::Data& data) {
+    return !selection.wants_memory({data.bits}) || !selection.wants_ops(data.writers);
+  });
+  const Bits request{sm::kEepromRequest * 8u, 8};
+  std::erase_if(map.savers,
+                [&](std::uint32_t op) { return !selection.wants_memory({request}) || !selection.wants_ops({op}); });
+  std::erase_if(wanted.stand_ins, [&](const StandIn& each) {
+    const Bits variables{(std::uint64_t{image::kV} + each.memory) * 8, std::uint64_t{each.bytes} * 8};
+    return !selection.wants_memory({variables}) || !selection.ops.empty();
+  });
+  return wanted;
 }
 
 ordered_json area_json(const Inspection& inspection, const CrossReference& reference, const MemoryMap::AreaUse& area) {
@@ -257,29 +283,26 @@ ordered_json map_places_json(const Inspection& inspection, const std::vector<std
 
 std::string map_text(const Inspection& inspection) {
   const CrossReference reference = cross_reference(inspection.facts);
-  const MemoryMap map = memory_map(inspection.facts, reference);
+  const auto [map, stand_ins] = wanted_map(inspection, reference);
   std::string text;
-  for (const MemoryMap::AreaUse& area : map.areas)
-    if (is_wanted(inspection, area)) text += area_text(inspection, reference, area);
-  if (!inspection.selection.everything()) return text;
+  for (const MemoryMap::AreaUse& area : map.areas) text += area_text(inspection, reference, area);
   return text + timers_text(inspection, map) + counters_text(inspection, map) + data_text(inspection, map) +
-         eeprom_text(inspection, map) + stand_ins_text(inspection);
+         eeprom_text(inspection, map) + stand_ins_text(stand_ins);
 }
 
 ordered_json map_json(const Inspection& inspection) {
   const CrossReference reference = cross_reference(inspection.facts);
-  const MemoryMap map = memory_map(inspection.facts, reference);
+  const auto [map, stand_ins] = wanted_map(inspection, reference);
   ordered_json json;
   for (const char* key : {"areas", "timers", "counters", "data_block", "stand_ins"}) json[key] = ordered_json::array();
-  for (const MemoryMap::AreaUse& area : map.areas)
-    if (is_wanted(inspection, area)) json["areas"].push_back(area_json(inspection, reference, area));
+  for (const MemoryMap::AreaUse& area : map.areas) json["areas"].push_back(area_json(inspection, reference, area));
   for (const MemoryMap::Element& timer : map.timers) json["timers"].push_back(element_json(inspection, timer, "T"));
   for (const MemoryMap::Element& counter : map.counters) json["counters"].push_back(element_json(inspection, counter, "C"));
   for (const MemoryMap::Data& data : map.data)
     json["data_block"].push_back(
         {{"memory", range_text(data.bits)}, {"writers", map_places_json(inspection, data.writers)}});
   json["eeprom_savers"] = map_places_json(inspection, map.savers);
-  for (const StandIn& stand_in : stand_ins_of(inspection.program->source))
+  for (const StandIn& stand_in : stand_ins)
     json["stand_ins"].push_back({{"file", stand_in.file},
                                  {"routines", stand_in.routines},
                                  {"memory", fmt::format("VB{}:{}", stand_in.memory, stand_in.bytes)}});

@@ -85,11 +85,6 @@ struct Overview {
   }
 };
 
-std::string list_text(std::string_view what, const std::vector<std::string>& all) {
-  if (all.empty()) return {};
-  return wrapped_at(fmt::format("{}: {}", what, stl::joined(all, overview_name)), 2) + "\n";
-}
-
 std::string routine_line(const Overview& overview, std::uint32_t i) {
   const Routine& routine = overview.inspection.facts.flow.routines[i];
   std::string text = "  " + column(routine_in_words(overview.inspection, routine), 30) +
@@ -167,12 +162,12 @@ std::string overview_text(const Inspection& inspection) {
                                  counted(inspection.program->ops.size(), "instruction"),
                                  counted(overview.networks(), "network"), counted(routines.size(), "routine"));
   for (std::uint32_t i = 0; i < routines.size(); ++i) text += routine_line(overview, i);
-  text += list_text("inputs", overview.named(Area::I)) + list_text("outputs", overview.named(Area::Q)) +
-          list_text("analog inputs", overview.named(Area::AI)) + list_text("analog outputs", overview.named(Area::AQ)) +
-          list_text("timers", overview.named(Area::T)) + list_text("counters", overview.named(Area::C)) +
-          list_text("to the outside", overview.outside());
-  text += list_text("written, never read", overview.with_usage(Usage::NeverRead)) +
-          list_text("read, never written", overview.with_usage(Usage::NeverWritten));
+  text += list_text(0, "inputs", overview.named(Area::I)) + list_text(0, "outputs", overview.named(Area::Q)) +
+          list_text(0, "analog inputs", overview.named(Area::AI)) +
+          list_text(0, "analog outputs", overview.named(Area::AQ)) + list_text(0, "timers", overview.named(Area::T)) +
+          list_text(0, "counters", overview.named(Area::C)) + list_text(0, "to the outside", overview.outside());
+  text += list_text(0, "written, never read", overview.with_usage(Usage::NeverRead)) +
+          list_text(0, "read, never written", overview.with_usage(Usage::NeverWritten));
   text += remarks_text(overview);
   if (const std::size_t races = overview.races.races.size(); races != 0)
     text += fmt::format("{}: see the view races\n", counted(races, "race"));

@@ -70,11 +70,9 @@ std::string memory_of(const Race& race) {
   return race.with ? fmt::format("{}, {}", memory_text(race.bits), memory_text(*race.with)) : memory_text(race.bits);
 }
 
-bool is_wanted(const Selection& selection, const Race& race) {
-  const bool memory = selection.memory.empty() || selection.has(race.bits) || (race.with && selection.has(*race.with));
-  const bool ops = selection.ops.empty() || selection.has_op(race.first) || selection.has_op(race.last) ||
-                   selection.has_op(race.interrupt);
-  return memory && ops;
+bool is_race_wanted(const Selection& selection, const Race& race) {
+  return selection.wants_memory({race.bits, race.with.value_or(race.bits)}) &&
+         selection.wants_ops({race.first, race.last, race.interrupt});
 }
 
 std::string scenario_text(const Inspection& inspection, const FoundRace& found) {
@@ -123,15 +121,11 @@ std::string not_followed_text(const Inspection& inspection, const NotFollowed& l
   return wrapped_at(text, 2) + "\n";
 }
 
-bool is_wanted(const Selection& selection, const NotFollowed& left) {
-  return selection.ops.empty() || selection.has_op(left.call);
-}
-
 Races wanted_races(const Inspection& inspection) {
   Races all = find_races(inspection.facts, calls_of(*inspection.program, inspection.facts.flow), inspection.waiter);
-  const auto is_other = [&](const auto& each) { return !is_wanted(inspection.selection, each); };
-  std::erase_if(all.races, is_other);
-  std::erase_if(all.not_followed, is_other);
+  const Selection& selection = inspection.selection;
+  std::erase_if(all.races, [&](const Race& race) { return !is_race_wanted(selection, race); });
+  std::erase_if(all.not_followed, [&](const NotFollowed& left) { return !selection.wants_ops({left.call}); });
   return all;
 }
 

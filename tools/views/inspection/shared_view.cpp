@@ -20,21 +20,18 @@ struct Shared {
   std::vector<SharedMemory> all;
 };
 
-bool is_wanted(const Selection& selection, const CrossReference& reference, const SharedMemory& shared) {
+bool is_shared_wanted(const Selection& selection, const CrossReference& reference, const SharedMemory& shared) {
   const auto has_op = [&](const SharedMemory::Side& side) {
-    const auto has = [&](std::uint32_t op) { return selection.has_op(op); };
-    return std::ranges::any_of(side.reads, has) || std::ranges::any_of(side.writes, has);
+    return selection.wants_ops(side.reads) || selection.wants_ops(side.writes);
   };
-  return (selection.memory.empty() || selection.has(reference.entries[shared.entry].bits)) &&
-         (selection.ops.empty() || std::ranges::any_of(shared.sides, has_op));
+  return selection.wants_memory({reference.entries[shared.entry].bits}) && std::ranges::any_of(shared.sides, has_op);
 }
 
 Shared wanted_shared(const Inspection& inspection) {
   Shared shared{cross_reference(inspection.facts), {}};
-  shared.all =
-      shared_memory(inspection.facts, calls_of(*inspection.program, inspection.facts.flow), shared.reference);
+  shared.all = shared_memory(inspection.facts, calls_of(*inspection.program, inspection.facts.flow), shared.reference);
   std::erase_if(shared.all,
-                [&](const SharedMemory& each) { return !is_wanted(inspection.selection, shared.reference, each); });
+                [&](const SharedMemory& each) { return !is_shared_wanted(inspection.selection, shared.reference, each); });
   return shared;
 }
 
@@ -52,7 +49,8 @@ std::string side_text(const Inspection& inspection, const SharedMemory::Side& si
   constexpr std::size_t kShown = 4;
   const auto places = [&](std::string_view what, const std::vector<std::uint32_t>& ops) {
     if (ops.empty()) return std::string();
-    const std::vector<std::uint32_t> shown(ops.begin(), ops.begin() + static_cast<std::ptrdiff_t>(std::min(ops.size(), kShown)));
+    const std::vector<std::uint32_t> shown(ops.begin(),
+                                           ops.begin() + static_cast<std::ptrdiff_t>(std::min(ops.size(), kShown)));
     std::string text =
         fmt::format("{} in {}", what, stl::joined(shown, [&](std::uint32_t op) { return line_text(inspection, op); }));
     if (ops.size() > kShown) text += fmt::format(" and {} more", ops.size() - kShown);

@@ -49,11 +49,9 @@ class StepsView {
  private:
   bool is_wanted(const Step& step) const {
     const Selection& selection = inspection_.selection;
-    const bool memory = selection.memory.empty() || selection.has(step.bit);
-    const auto has_op = [&](std::uint32_t op) { return selection.has_op(op); };
-    const bool place =
-        selection.ops.empty() || (step.segment && has_op(*step.segment)) || std::ranges::any_of(step.switched_on, has_op);
-    return memory && place;
+    std::vector<std::uint32_t> ops = step.switched_on;
+    if (step.segment) ops.push_back(*step.segment);
+    return selection.wants_memory({step.bit}) && selection.wants_ops(ops);
   }
 
   std::string operand_text(std::uint32_t op, std::size_t operand) const {
