@@ -235,6 +235,16 @@ TEST(WhyNot, AComparisonWithATimerOrACounterSaysHowItGetsThere) {
   EXPECT_FALSE(has(session("why not Q0.4"), "in line 4 must")) << "a TOF stops at its preset";
 }
 
+TEST(WhyNot, ATonrGoesOffByRAlone) {
+  AtPrompt session(on_cpu224("LD I0.0\nTONR T5, 1\nTONR T6, 1\nLD I0.1\nR T5, 1\nMEND\n"));
+  session("input I0.0=1; continue 300ms");
+  const std::string resets = session("why not not T5");
+  EXPECT_TRUE(has(resets, "a timer, TONR of 100 ms, which stays on without power until R resets it\n")) << resets;
+  EXPECT_TRUE(has(resets, "R T5, 1 in line 5: I0.1=0\n")) << resets;
+  EXPECT_FALSE(has(resets, "must have no power")) << resets;
+  EXPECT_TRUE(has(session("why not not T6"), "until R resets it; no R of the program does\n"));
+}
+
 TEST(WhyNot, AnEdgeOfWhatIsOnAlreadyHasToGoOffFirst) {
   AtPrompt session("LD I0.0\nEU\n= Q0.0\nMEND\n");
   session("continue 20ms");

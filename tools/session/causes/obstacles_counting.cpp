@@ -54,6 +54,10 @@ Obstacle Obstacles::of_timer(const Bits& bit, bool wanted) {
       found.text = fmt::format("{} ({})", when, passed_text(now, preset, base));
       return found;
     }
+    if (instruction.mnemonic == "TONR" && !wanted) {
+      found.text = fmt::format("a timer, TONR of {}, which stays on without power until R resets it", format_duration(base));
+      continue;
+    }
     const std::string after = wanted == off_delay ? "" : fmt::format(" for {}", timed_text(preset, base));
     Obstacle rung{
         .kind = "rung",
@@ -66,6 +70,7 @@ Obstacle Obstacles::of_timer(const Bits& bit, bool wanted) {
   }
   if (!any) found.text = "no instruction times it";
   if (!wanted) add_resets(found, bit);
+  if (!wanted && any && found.because.empty()) found.text += "; no R of the program does";
   return found;
 }
 
