@@ -773,9 +773,39 @@ TEST(Why, ABitThatDecidesInTwoPlacesDoesNotHoldItself) {
   EXPECT_FALSE(has(session("why Q0.0"), "holds itself"));
 }
 
-/// CPU 224 has subroutines with parameters.
+/// CPU 224 has subroutines with parameters, and BTI.
 std::shared_ptr<const Program> with_blocks(std::string_view text) {
   return check_text(text, "test.awl", cpu224(), default_times(cpu224())).program;
+}
+
+TEST(Why, AMoveLeadsToWhatItMoved) {
+  AtPrompt session(
+      with_blocks("LD I0.7\nMOVB IB0, MB0\nMOVW VW2, VW4\nMOVW VW4, AC0\nMOVW AC0, VW10\nLD I1.0\nMOVW 5, VW2\n"
+                  "LD SM0.0\nMOVB MB0, MB1\nMOVB MB1, MB2\nMOVB MB2, MB1\nBTI MB0, VW20\nMEND\n"));
+  session("input I0.7=1 I1.0=1; scan 3");
+  const std::string word = session("why VW10");
+  EXPECT_TRUE(has(word, "VW10 is 16#0005 (5); last written at ")) << word;
+  EXPECT_TRUE(has(word, "\n  VW4 was 16#0005 (5): last written at ")) << word;
+  EXPECT_TRUE(has(word, "\n  VW2 was 16#0005 (5): last written at ")) << word;
+  EXPECT_TRUE(has(word, " by MOVW 5, VW2 in line 7 (LD I1.0: I1.0=1)\n")) << word;
+  const std::string bit = session("why M0.7");
+  EXPECT_TRUE(has(bit, " by MOVB IB0, MB0 in line 2 (LD I0.7: I0.7=1)\n  I0.7 was 1: an input\n")) << bit;
+  EXPECT_TRUE(has(session("why V21.7"), "\n  M0.7 was 1: last written at ")) << "the lower byte of the word";
+  EXPECT_FALSE(has(session("why V20.7"), "M0.7 was")) << "BTI fills it up";
+  EXPECT_TRUE(has(session("why MB2"), "\n  MB1 was ")) << "words in a circle end";
+}
+
+TEST(Why, SHRBLeadsToWhereTheBitEnteredAndToItsNeighbour) {
+  AtPrompt session(with_blocks("LD I0.1\nEU\nSHRB M9.0, V0.7, 3\nLD I0.0\n= M9.0\nMEND\n"));
+  session("input I0.0=1; scan 3; input I0.1=1; scan 3; input I0.0=0 I0.1=0; scan 3; input I0.1=1; scan 3");
+  const std::string shifted = session("why V1.0");
+  EXPECT_TRUE(has(shifted, "V1.0 is 1; last written at ")) << shifted;
+  EXPECT_TRUE(has(shifted, "\n  V0.7 was 1: last written at ")) << shifted;
+  EXPECT_TRUE(has(shifted, "\n  M9.0 was 1: last written at ")) << shifted;
+  EXPECT_TRUE(has(shifted, " by = M9.0 in line 5 (LD I0.0: I0.0=1)\n")) << shifted;
+  const std::string entered = session("why V0.7");
+  EXPECT_TRUE(has(entered, "V0.7 is 0; last written at ")) << entered;
+  EXPECT_TRUE(has(entered, "\n  M9.0 was 0: last written at ")) << entered;
 }
 
 /// SBR 0 has an input L0.0 and an output L0.1; Motor is its output.
@@ -889,9 +919,10 @@ TEST(Why, AnEndInFrontOfACallIsNamedThoughItHadNoPowerBefore) {
 }
 
 TEST(Why, TheEndOfAMainProgramThatStandsBehindASubroutineEndsTheScan) {
-  AtPrompt session(with_blocks("SUBROUTINE_BLOCK sub:SBR0\nBEGIN\nNETWORK 1\nLD I0.2\n= Q0.1\nEND_SUBROUTINE_BLOCK\n"
-                               "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.0\nCALL sub\nLD I0.3\nEND\n"
-                               "NETWORK 2\nLD SM0.0\n= Q0.0\nEND_ORGANIZATION_BLOCK\n"));
+  AtPrompt session(
+      with_blocks("SUBROUTINE_BLOCK sub:SBR0\nBEGIN\nNETWORK 1\nLD I0.2\n= Q0.1\nEND_SUBROUTINE_BLOCK\n"
+                  "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.0\nCALL sub\nLD I0.3\nEND\n"
+                  "NETWORK 2\nLD SM0.0\n= Q0.0\nEND_ORGANIZATION_BLOCK\n"));
   session("input I0.3=1; scan 3");
   EXPECT_TRUE(has(session("why Q0.0"), ": END in line 13 ended the scan in front of it at "));
 }

@@ -4,9 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iterator>
+#include <utility>
 
 #include "interpreter/analysis/effects/effects.hpp"
+#include "interpreter/analysis/effects/sources.hpp"
 #include "interpreter/cpu/units/forcing.hpp"
 #include "interpreter/model/contact_form.hpp"
 #include "interpreter/trace/rung_contacts.hpp"
@@ -28,9 +29,11 @@ constexpr std::size_t kMostSteps = 8;    // back from a bit to what decided it
 constexpr std::size_t kMostWriters = 3;  // that are named of memory that nobody has written
 constexpr Time kLookedAt = kSecond;      // whether they were executed
 
-bool is_same_bit(const MemoryRange& a, const MemoryRange& b) {
-  return a.width == Width::Bit && b.width == Width::Bit && a.at == b.at && a.bit == b.bit;
+bool is_same_place(const MemoryRange& a, const MemoryRange& b) {
+  return a.width == b.width && a.count == b.count && a.at == b.at && a.bit == b.bit;
 }
+
+bool is_input(Area area) { return area == Area::I || area == Area::AI; }
 
 class MemoryInquiry {
  public:
@@ -39,7 +42,8 @@ class MemoryInquiry {
 
   bool interrupted() const { return interrupted_; }
 
-  /// From where the history stands; the bits that decided it are in `next()`, where the history then stands.
+  /// From where the history stands; what the value came from and the bits that decided it are in `next()`, where the history
+  /// then stands.
   std::string who(const MemoryRange& range) {
     next_.clear();
     const WriteSearch search = find_last_write(history_, station_, range, stop_request_);
@@ -88,6 +92,7 @@ class MemoryInquiry {
       return fmt::format("{}, as an output of {}", by, named_in_sentence(*write.call, program()));
     }
     const std::string contacts = rung_in_front_of(write);
+    if (const auto source = moved_to(write.by->op, range)) next_.insert(next_.begin(), *source);
     if (range.area == Area::L && program().ops[write.by->op].instruction->structure == Structure::Call)
       next_ = parameters_for(write.by->op, range, false);
     return fmt::format("{}{}{}", by, contacts.empty() ? "" : fmt::format(" ({})", contacts), forced_);
@@ -104,6 +109,24 @@ class MemoryInquiry {
         if (const auto bit = bit_of(other)) bits.push_back(*bit);
     }
     return bits;
+  }
+
+  /// The memory from which an instruction moves something, in front of which the history stands.
+  std::optional<MemoryRange> moved_to(std::uint32_t op, const MemoryRange& range) const {
+    const auto source = source_of(program(), op, bits_of(range), here().cpu().state().image);
+    if (!source || constant_bit(program(), *source)) return {};
+    const Width width = source->count == 1    ? Width::Bit
+                        : source->count == 8  ? Width::Byte
+                        : source->count == 16 ? Width::Word
+                                              : Width::Double;
+    const std::uint32_t one = width == Width::Bit ? 1 : 8 * bytes_of(width);
+    auto from =
+        range_at(static_cast<std::uint32_t>(source->first / 8), width == Width::Bit ? Width::Byte : width, *program().model);
+    if (!from || source->count % one != 0) return {};
+    from->width = width;
+    from->bit = static_cast<std::uint8_t>(source->first % 8);
+    from->count = static_cast<std::uint32_t>(source->count / one);
+    return from;
   }
 
   /// Of memory that the program decides.
@@ -152,7 +175,7 @@ class MemoryInquiry {
       const Op& op = program().ops[contact.op];
       if (!is_bit_contact(op) || op[0].pointer || write.by->op == contact.op) continue;
       const auto bit = bit_of(op[0]);
-      if (bit && std::ranges::none_of(bits, [&](const MemoryRange& one) { return is_same_bit(one, *bit); }))
+      if (bit && std::ranges::none_of(bits, [&](const MemoryRange& one) { return is_same_place(one, *bit); }))
         bits.push_back(*bit);
     }
     return bits;
@@ -229,7 +252,7 @@ class MemoryInquiry {
       else if (accesses(cpu, op, Access::Write, bits) || gets_back(op, bits))
         writers.push_back(op);
     }
-    if (range.area == Area::I || range.area == Area::AI) return "it is an input, which the program does not write";
+    if (is_input(range.area)) return "it is an input, which the program does not write";
     if (writers.empty())
       return by_pointer ? "no instruction names it; one that writes through a pointer could"
                         : "no instruction of the program writes it";
@@ -262,11 +285,11 @@ class MemoryInquiry {
   std::string forced_{};  // of the last rung
 };
 
-/// A bit that decided another, and when.
+/// What other memory came from: a bit that decided it, or where its value was; and when.
 struct Step {
-  MemoryRange bit;
+  MemoryRange place;
   Moment at;
-  std::vector<MemoryRange> way{};  ///< the bits that led to it
+  std::vector<MemoryRange> way{};  ///< what led to it
 };
 
 std::string value_of(const Cpu& cpu, const MemoryRange& range) {
@@ -295,31 +318,41 @@ std::optional<std::vector<std::string>> memory_cause(History& history, std::size
   MemoryInquiry inquiry(history, station, stop_request);
   std::vector<std::string> lines{inquiry.who(range)};
   std::vector<Step> steps;  // the next one last
-  const auto times_on = [](const std::vector<MemoryRange>& way, const MemoryRange& bit) {
-    return std::ranges::count_if(way, [&](const MemoryRange& one) { return is_same_bit(one, bit); });
+  const auto times_on = [](const std::vector<MemoryRange>& way, const MemoryRange& place) {
+    return std::ranges::count_if(way, [&](const MemoryRange& one) { return is_same_place(one, place); });
   };
   const auto add_steps = [&](std::vector<MemoryRange> way, const MemoryRange& from) {
     way.push_back(from);
-    for (auto bit = inquiry.next().rbegin(); bit != inquiry.next().rend(); ++bit)
-      if (times_on(way, *bit) < 2) steps.push_back({*bit, history.now(), way});
+    for (auto place = inquiry.next().rbegin(); place != inquiry.next().rend(); ++place) {
+      const bool may_hold_itself = place->width == Width::Bit;
+      if (times_on(way, *place) < (may_hold_itself ? 2 : 1)) steps.push_back({*place, history.now(), way});
+    }
   };
   add_steps({}, range);
   const auto name = [&](const Step& step) {
     history.go_to(step.at);
     const Cpu& cpu = history.station(station).cpu();
-    return fmt::format("{} was {}", named(cpu.program(), step.bit), value_of(cpu, step.bit));
+    return fmt::format("{} was {}", named(cpu.program(), step.place), value_of(cpu, step.place));
+  };
+  const auto why = [&](const Step& step) {
+    return times_on(step.way, step.place) > 0 ? inquiry.held_since(step.place) : inquiry.who(step.place);
   };
   while (!inquiry.interrupted() && !steps.empty() && lines.size() < kMostSteps) {
     const Step step = steps.back();
     steps.pop_back();
     const std::string was = name(step);
-    const bool leads_to_itself = times_on(step.way, step.bit) > 0;
-    lines.push_back(fmt::format("{}: {}", was, leads_to_itself ? inquiry.held_since(step.bit) : inquiry.who(step.bit)));
-    add_steps(step.way, step.bit);
+    if (is_input(step.place.area)) {
+      lines.push_back(was + ": an input");
+      continue;
+    }
+    lines.push_back(fmt::format("{}: {}", was, why(step)));
+    add_steps(step.way, step.place);
   }
   if (lines.size() > 1 && !steps.empty()) {
     std::vector<std::string> others;
-    std::transform(steps.rbegin(), steps.rend(), std::back_inserter(others), name);
+    for (auto step = steps.rbegin(); step != steps.rend(); ++step)
+      if (std::string other = name(*step); std::ranges::find(others, other) == others.end())
+        others.push_back(std::move(other));
     lines.push_back(fmt::format("{}: not followed further back", fmt::join(others, ", ")));
   }
   history.go_to(start);

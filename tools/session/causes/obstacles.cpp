@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "interpreter/analysis/effects/memory_names.hpp"
+#include "interpreter/analysis/effects/sources.hpp"
 #include "interpreter/analysis/flow/calls.hpp"
 #include "interpreter/base/text/among.hpp"
 #include "interpreter/base/text/counted.hpp"
@@ -36,14 +37,6 @@ bool is_bits_of_timer(const Bits& bit) { return bit.first / 8 - image::kTBits < 
 bool is_bits_of_counter(const Bits& bit) { return bit.first / 8 - image::kCBits < image::kCounters / 8; }
 
 Bits bit_at(const Operand& operand) { return {std::uint64_t{operand.at} * 8 + operand.bit, 1}; }
-
-/// The level that MOVB, MOVW or MOVD of a constant gives a bit; nothing of anything else.
-std::optional<bool> moved_constant(const Program& program, const Op& op, const Bits& bit) {
-  const bool moves = is_among(op.instruction->mnemonic, {"MOVB", "MOVW", "MOVD"}) && !op[1].pointer;
-  if (!moves || op[0].pointer || op[0].unread() || op[0].at < image::kConstants || bit.count != 1) return {};
-  const std::uint64_t offset = bit.first - std::uint64_t{op[1].at} * 8, byte = op[0].at - image::kConstants + offset / 8;
-  return (program.constants[static_cast<std::size_t>(byte)] >> offset % 8 & 1) != 0;
-}
 
 }  // namespace
 
@@ -135,7 +128,8 @@ void Obstacles::note_writer(std::uint32_t number, const Bits& bits, bool wanted,
     if (leaves != wanted) writers.deciding.push_back(number);
     return;
   }
-  if (const auto moved = moved_constant(program(), by, bits); moved && *moved != wanted) return;
+  const auto source = one_bit ? moved_from(number, bits) : std::nullopt;
+  if (source && constant_bit(program(), *source).value_or(wanted) != wanted) return;
   writers.others.push_back(number);
 }
 
@@ -524,18 +518,20 @@ void Obstacles::add_indirect(Obstacle& to, const Writers& writers, const Bits& b
                         .op = writers.pointers.front()});
 }
 
+/// The bit that an instruction without pointers moves to another.
+std::optional<Bits> Obstacles::moved_from(std::uint32_t number, const Bits& bit) const {
+  return op(number).has_pointer ? std::nullopt : source_of(program(), number, bit, cpu_.state().image);
+}
+
 /// A move from memory leads to the bit that it moves there.
 Obstacle Obstacles::of_writer(std::uint32_t number, const Bits& bit, bool wanted) {
-  const Op& by = op(number);
   Obstacle found{
       .kind = "write", .text = fmt::format("{} writes it: {}", place_text(number), rung_text(number, 0)), .op = number};
-  const bool moves = is_among(by.instruction->mnemonic, {"MOVB", "MOVW", "MOVD", "MOVR"});
-  if (moves && !by[0].pointer && !by[1].pointer && by[0].at < image::kConstants && bit.count == 1) {
-    const std::uint64_t offset = bit.first - std::uint64_t{by[1].at} * 8;
-    const Bits source{std::uint64_t{by[0].at} * 8 + offset, 1};
-    const bool is_plain = area_of(source) != Area::T && area_of(source) != Area::C && area_of(source) != Area::AC &&
-                          area_of(source) != Area::L;
-    if (is_plain && is_on(source) != wanted) found.because.push_back(of_bit(source, wanted));
+  const auto source = bit.count == 1 ? moved_from(number, bit) : std::nullopt;
+  if (source && !constant_bit(program(), *source)) {
+    const Area area = area_of(*source);
+    const bool is_plain = area != Area::T && area != Area::C && area != Area::AC && area != Area::L;
+    if (is_plain && is_on(*source) != wanted) found.because.push_back(of_bit(*source, wanted));
   }
   add_ways_if_any_changes(found, ways_.to(number, true));
   return found;

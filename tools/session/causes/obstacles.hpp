@@ -58,6 +58,7 @@ class Obstacles {
   Obstacle of_timer(const Bits& bit, bool wanted);
   Obstacle of_counter(const Bits& bit, bool wanted);
   Obstacle of_memory(const Bits& bit, bool wanted, std::optional<std::uint32_t> routine);
+  std::optional<Bits> moved_from(std::uint32_t op, const Bits& bit) const;
   Obstacle of_writer(std::uint32_t op, const Bits& bit, bool wanted);
   Obstacle of_call(std::uint32_t call, const Bits& bit, bool wanted);
   Obstacle of_input(std::uint32_t op, std::size_t level, bool on, std::string text);
