@@ -3,6 +3,8 @@
 import base64
 import contextlib
 import csv
+import fnmatch
+import glob
 import html
 import itertools
 import json
@@ -4627,6 +4629,26 @@ class Readme(Case):
         for page in [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", SOURCE / "CHANGELOG.md", *self.PAGES]:
             for link in re.findall(r"\]\(([^)#:]+)\)", page.read_text(encoding="utf-8")):
                 self.assertTrue((page.parent / link).exists(), f"{page.name}: {link}")
+
+    def test_paths_in_the_readmes_of_folders_are_there(self):
+        """With a slash from its folder on, or from one above; a file of code without one is somewhere in the tree."""
+        tree = [path for folder in SOURCE.iterdir() if folder.name not in ("build", ".git") for path in (folder, *folder.rglob("*"))]
+        names = {path.name for path in tree}
+        outside = ("build/", "../shared/")
+        count = 0
+        for readme in (path for path in tree if path.name == "README.md"):
+            bases = [base for base in readme.parents if base == SOURCE or SOURCE in base.parents]
+            text = re.sub(r"(?ms)^```.*?^```", "", readme.read_text(encoding="utf-8"))
+            for name in re.findall(r"`([\w.*-]*/[\w./*-]+|[\w*-]+\.(?:[ch]pp|py|mjs|csv|\*))`", text):
+                if name.startswith("/") or any(part in name for part in outside) or "NAME" in name:
+                    continue
+                count += 1
+                with self.subTest(f"{readme.relative_to(SOURCE)}: {name}"):
+                    if "/" in name:
+                        self.assertTrue(any(glob.glob(str(base / name)) or glob.glob(f"{base / name}.*") for base in bases))
+                    else:
+                        self.assertTrue(fnmatch.filter(names, name))
+        self.assertGreater(count, 300)
 
     def test_the_picture_is_what_a_run_gives(self):
         done = subprocess.run([sys.executable, SOURCE / "docs/timeline.py", S7200], capture_output=True, text=True, check=False, timeout=120)
