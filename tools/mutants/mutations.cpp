@@ -22,8 +22,8 @@ namespace {
 using stl::Statement;
 
 /// Instructions of which one is easily written for the other.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kOpposites{
-    {{"LD", "LDN"}, {"A", "AN"}, {"O", "ON"}, {"LDI", "LDNI"}, {"AI", "ANI"}, {"OI", "ONI"}, {"EU", "ED"}}};
+constexpr std::pair<std::string_view, std::string_view> kOpposites[]{
+    {"LD", "LDN"}, {"A", "AN"}, {"O", "ON"}, {"LDI", "LDNI"}, {"AI", "ANI"}, {"OI", "ONI"}, {"EU", "ED"}};
 /// Instructions whose operands are not the same the other way round, besides comparisons.
 constexpr std::array<std::string_view, 7> kOrdered{"-I", "-D", "-R", "/I", "/D", "/R", "DIV"};
 
