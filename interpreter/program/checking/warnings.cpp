@@ -41,7 +41,7 @@ std::span<const WarningInfo> all_warnings() {
       WarningInfo{Warning::UnusedRoutine, "unused-routine", "a routine that is never called or attached"},
       WarningInfo{Warning::UnusedSpecialMemory, "unused-sm",
                   "special memory that the CPU makes no use of, or a word over a byte of it"},
-      WarningInfo{Warning::UnusedStep, "unused-step", "an S bit that is set but that no segment loads"},
+      WarningInfo{Warning::UnusedStep, "unused-step", "an S bit that is set but that no segment and no contact loads"},
   };
   return kTable;
 }
