@@ -8,6 +8,10 @@
 
 namespace s7200::local_memory {
 
+/// Whose memory it is that the image has: number in State::local. The main program and its subroutines, by the depth of
+/// their calls, then an interrupt routine and the one that it calls.
+std::size_t level(const State& s);
+
 /// The routine that runs will not go on for now: it calls another, or ends.
 void put_aside(Core& core);
 

@@ -220,6 +220,45 @@ TEST(Effect, ParametersOfASubroutineHandOnInAndOut) {
   EXPECT_FALSE(has(word, "only because scans take other times")) << word;
 }
 
+/// An interrupt comes within each call, while it loops.
+constexpr std::string_view kInterrupted =
+    "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\n"
+    "NETWORK 2\nLD SM0.0\nCALL Copy, VW10, VW20\nLDW> VW20, 100\n= Q0.6\nEND_ORGANIZATION_BLOCK\n"
+    "SUBROUTINE_BLOCK Copy:SBR1\nVAR_INPUT\nin1 : INT;\nEND_VAR\nVAR_OUTPUT\nout1 : INT;\nEND_VAR\nBEGIN\nNETWORK 1\n"
+    "LD SM0.0\nFOR VW50, 1, 300\nINCW VW52\nNEXT\nMOVW #in1, #out1\nEND_SUBROUTINE_BLOCK\n"
+    "INTERRUPT_BLOCK INT_0:INT0\nBEGIN\nNETWORK 1\nLD SM0.0\nINCW VW40\nMOVW 7, LW0\nMOVW VW40, AC0\n"
+    "END_INTERRUPT_BLOCK\n";
+
+std::string effect_of_vw10(std::string_view program) {
+  AtPrompt session(for_effects(program));
+  session("set VW10=200; continue 1s; set VW10=90; continue 1s");
+  return session("effect VW10");
+}
+
+TEST(Effect, AnInterruptTakesNoParameterFromTheSubroutineItInterrupts) {
+  const std::string text = effect_of_vw10(kInterrupted);
+  EXPECT_TRUE(has(text, "\n  VW20 is 16#005A (90), not 16#00C8 (200), from ")) << text;
+  EXPECT_TRUE(has(text, "\n    Q0.6 is 0, not 1, from ")) << text;
+  EXPECT_FALSE(has(text, "only because scans take other times: VW20")) << text;
+}
+
+TEST(Effect, AnInterruptGivesBackTheAccumulatorsThatItUses) {
+  const std::string text =
+      effect_of_vw10(test::changed(test::changed(std::string(kInterrupted), "FOR VW50", "MOVW #in1, AC0\nFOR VW50"),
+                                   "MOVW #in1, #out1", "MOVW AC0, #out1"));
+  EXPECT_TRUE(has(text, "\n  VW20 is 16#005A (90), not 16#00C8 (200), from ")) << text;
+  EXPECT_FALSE(has(text, "only because scans take other times: VW20")) << text;
+}
+
+TEST(Effect, ASubroutineFindsItsParametersAgainAfterACall) {
+  const std::string text = effect_of_vw10(test::changed(
+      test::changed(std::string(kInterrupted), "FOR VW50, 1, 300\nINCW VW52\nNEXT", "CALL Other, 5"), "INTERRUPT_BLOCK",
+      "SUBROUTINE_BLOCK Other:SBR2\nVAR_INPUT\nin1 : INT;\nEND_VAR\nBEGIN\nNETWORK 1\n"
+      "LD SM0.0\nMOVW #in1, VW60\nEND_SUBROUTINE_BLOCK\nINTERRUPT_BLOCK"));
+  EXPECT_TRUE(has(text, "\n  VW20 is 16#005A (90), not 16#00C8 (200), from ")) << text;
+  EXPECT_FALSE(has(text, "only because scans take other times: VW20")) << text;
+}
+
 TEST(Effect, AMessageIsStoredBecauseOfWhatStartedItsRcv) {
   AtPrompt session(for_effects(
       "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 16#B0, SMB87\nMOVB 16#0D, SMB89\nMOVW 5, SMW90\nMOVB 10, SMB94\nATCH 0, 23\nENI\n"

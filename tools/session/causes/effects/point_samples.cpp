@@ -8,6 +8,15 @@ namespace s7200::tools {
 PointSamples::PointSamples(RunRecord& run)
     : run_(run), last_(run.places.size()), between_(run.image), last_change_(run.image.size() * 8) {}
 
+std::vector<std::size_t> PointSamples::last_changes(const Bits& place) const {
+  const auto first = last_change_.begin() + static_cast<std::ptrdiff_t>(place.first);
+  return {first, first + static_cast<std::ptrdiff_t>(place.count)};
+}
+
+void PointSamples::set_last_changes(const Bits& place, const std::vector<std::size_t>& changes) {
+  std::ranges::copy(changes, last_change_.begin() + static_cast<std::ptrdiff_t>(place.first));
+}
+
 /// Those in which it is, of a bit with that one alone.
 std::vector<std::uint8_t> PointSamples::bytes_of(const Bits& place, const std::vector<std::uint8_t>& image) {
   const std::uint64_t first = place.first / 8, end = (place.end() + 7) / 8;

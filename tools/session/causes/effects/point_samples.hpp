@@ -20,6 +20,10 @@ class PointSamples {
   /// What happened last to a bit.
   void changed(std::uint64_t bit, std::size_t happening) { last_change_[bit] = happening + 1; }
 
+  /// The same of each bit of a place, by the number of the happening from 1; 0: nothing has happened to it.
+  std::vector<std::size_t> last_changes(const Bits& place) const;
+  void set_last_changes(const Bits& place, const std::vector<std::size_t>& changes);
+
   /// Whether it is not what it was when it was looked at there before.
   bool is_new(Point point, const Bits& place, const std::vector<std::uint8_t>& image) const;
 

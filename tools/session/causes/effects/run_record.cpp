@@ -9,6 +9,7 @@
 #include "interpreter/base/text/among.hpp"
 #include "interpreter/model/special_memory.hpp"
 #include "tools/session/causes/effects/changed_place.hpp"
+#include "tools/session/causes/effects/memory_of_levels.hpp"
 #include "tools/session/causes/effects/point_samples.hpp"
 #include "tools/session/past/actions/access.hpp"
 
@@ -163,6 +164,7 @@ SeriesRecorder::SeriesRecorder(History& history, std::size_t station, std::optio
   run_.places.resize(behind(static_cast<std::uint32_t>(cpu_.program().ops.size())));
   run_.passes.resize(cpu_.program().ops.size());
   samples_ = std::make_unique<PointSamples>(run_);
+  levels_ = std::make_unique<MemoryOfLevels>(cpu_, seen_, *samples_);
 }
 
 SeriesRecorder::~SeriesRecorder() = default;
@@ -257,6 +259,7 @@ bool SeriesRecorder::before(std::uint32_t op) {
   run_.full |= run_.happenings.size() >= kMostHappenings;
   run_.end = cpu_.time();
   if (interrupted_ || run_.full) return false;
+  levels_->follow();
   keep_held();
   note_changes({}, cpu_.time());
   level_ = level();
@@ -274,6 +277,7 @@ bool SeriesRecorder::before(std::uint32_t op) {
 }
 
 void SeriesRecorder::instruction(const InstructionRecord& record) {
+  levels_->follow();
   keep_held();
   const Op& op = cpu_.program().ops[record.op];
   const Instruction& instruction = *op.instruction;

@@ -102,6 +102,7 @@ struct Hold {
 };
 
 class PointSamples;
+class MemoryOfLevels;
 
 class SeriesRecorder final : public Reader {
  public:
@@ -163,6 +164,7 @@ class SeriesRecorder final : public Reader {
   std::vector<std::uint8_t> seen_;                  // the image so far
   std::array<Rung, 2 * (kMostCalls + 1)> rungs_{};  // by level
   std::unique_ptr<PointSamples> samples_;
+  std::unique_ptr<MemoryOfLevels> levels_;
   std::vector<std::optional<std::vector<Bits>>> reads_{}, writes_{};  // by op, of those without pointers and counts
   std::vector<std::optional<std::vector<Bits>>> direct_reads_{};      // by op
   std::vector<std::uint64_t> passed_in_{};                            // by op: the number of the scan
