@@ -11,6 +11,8 @@
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/program/operands/address.hpp"
+#include "interpreter/stl/parser.hpp"
+#include "interpreter/stl/tables/symbols.hpp"
 
 namespace s7200 {
 namespace {
@@ -53,8 +55,16 @@ Result<Selection::Ops> find_network(const std::string& word, std::string_view nu
                  stl::joined(networks, [](const auto& each) { return std::to_string(each.first); }));
 }
 
+/// Whether it can only be meant as an address, if not one of this CPU: `VB99999`, `VB0:99999`.
+bool can_only_be_address(std::string_view word) {
+  const std::string_view address = word.substr(0, word.find(':'));
+  const auto operand = stl::parse_operand(address);
+  return operand && std::holds_alternative<stl::Address>(operand->value) && !stl::may_be_name(operand->value, address);
+}
+
 /// What is probably meant by a word that is neither an address nor a routine.
 std::string unknown_text(const std::string& word, const Facts& facts, const std::string& not_an_address) {
+  if (can_only_be_address(word)) return not_an_address;
   std::vector<std::string_view> names;
   for (const stl::Symbol& symbol : facts.program.source.symbols) names.push_back(symbol.name);
   for (const stl::Block& block : facts.program.source.blocks) names.push_back(block.name);

@@ -17,7 +17,7 @@ TEST(Effect, ABitThatARungReadsIsAboveWhatItWrites) {
   const std::string text = session("effect I0.2");
   EXPECT_TRUE(has(text, "I0.2 was 0, became 1, at 40."));
   EXPECT_TRUE(
-      has(text, " by 'set I0.2', from outside\n  unlike the same run in which it stays 0:\n  Q0.0 is 1, not 0, from 4"));
+      has(text, " by 'input I0.2', from outside\n  unlike the same run in which it stays 0:\n  Q0.0 is 1, not 0, from 4"));
   EXPECT_TRUE(has(text, " on: = Q0.0 in line 3, after LD I0.2 in line 1\n    Q0.1 is 1, not 0, from 4")) << text;
   EXPECT_TRUE(has(text, ": = Q0.1 in line 5, after LD Q0.0 in line 4\n")) << text;
   EXPECT_FALSE(has(text, "Q0.2")) << text;

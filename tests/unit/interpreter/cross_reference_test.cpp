@@ -131,6 +131,14 @@ std::string why_not(std::string_view word) {
   return parse_selection(words, facts_of(*program)).why();
 }
 
+TEST(Selection, AnAddressThatTheCpuLacksIsNotTakenForARoutine) {
+  for (const std::string_view word : {"VB99999", "VB0:99999", "AC7"}) {
+    EXPECT_NE(why_not(word).find("does not exist on CPU"), std::string::npos) << why_not(word);
+    EXPECT_EQ(why_not(word).find("routine"), std::string::npos) << why_not(word);
+  }
+  EXPECT_NE(why_not("pump").find("; or a routine: MAIN, SBR_3"), std::string::npos) << why_not("pump");
+}
+
 TEST(Selection, NamesRoutinesAndNetworksInTheWaysPeopleWriteThem) {
   const auto program = program_of("NETWORK 1\nLD I0.0\nCALL 3\nMEND\nNETWORK 2\nSBR 3\nLD I0.1\n= Q0.0\nNETWORK 3\nRET\n");
   const Facts facts = facts_of(*program);

@@ -26,10 +26,6 @@ std::string assignments_text(const char* what, const std::vector<Assignment>& as
   return text;
 }
 
-bool are_inputs(const std::vector<Assignment>& assignments) {
-  return std::ranges::all_of(assignments, [](const Assignment& one) { return one.place.area == Area::I; });
-}
-
 /// What the port of a bridge was told. Empty if it has put nothing on the line.
 std::string text_of_bridge(const serial::HostCall& call, const std::string& name) {
   if (call.what != serial::HostCall::What::Send) return {};
@@ -42,8 +38,7 @@ std::string text_of_bridge(const serial::HostCall& call, const std::string& name
 std::string text_of_action(const History& history, std::size_t number) {
   const Action& action = *history.action(number);
   if (const auto* const set = std::get_if<SetMemory>(&action))
-    return set->assignments.empty() ? ""
-                                    : assignments_text(are_inputs(set->assignments) ? "input" : "set", set->assignments);
+    return set->assignments.empty() ? "" : assignments_text(are_inputs(*set) ? "input" : "set", set->assignments);
   if (const auto* const force = std::get_if<Force>(&action)) return assignments_text("force", force->assignments);
   if (const auto* const call = std::get_if<serial::HostCall>(&action))
     return text_of_bridge(*call, history.bridge_of(history.station_of_action(number)));

@@ -53,7 +53,7 @@ struct Doer {
 
 struct Teller {
   std::string operator()(const SetMemory& set) const {
-    std::string text = "set";
+    std::string text = are_inputs(set) ? "input" : "set";
     for (const Assignment& assignment : set.assignments) text += " " + assignment.place.name_of(0);
     return text;
   }
@@ -85,6 +85,10 @@ struct Teller {
 
 void perform(const Action& action, serial::Simulation& simulation, serial::HostPort* host, const LineStation* of) {
   std::visit(Doer{simulation, host, of}, action);
+}
+
+bool are_inputs(const SetMemory& set) {
+  return std::ranges::all_of(set.assignments, [](const Assignment& one) { return one.place.area == Area::I; });
 }
 
 std::string describe(const Action& action) { return std::visit(Teller{}, action); }

@@ -20,6 +20,9 @@ struct SetMemory {
   std::vector<Assignment> assignments;
 };
 
+/// Whether only input points are switched, as the command `input` does it.
+bool are_inputs(const SetMemory& set);
+
 /// The master puts a frame on the line.
 struct SendFrame {
   SerialFormat format{};
@@ -81,7 +84,7 @@ using Action = std::variant<SetMemory, SendFrame, CancelRequest, Jump, serial::H
 void perform(const Action& action, serial::Simulation& simulation, serial::HostPort* host = nullptr,
              const LineStation* of = nullptr);
 
-/// `set VW100`, `send 01 03 …`: what it was, in a few words.
+/// `set VW100`, `input I0.3`, `send 01 03 …`: what it was, in a few words.
 std::string describe(const Action& action);
 
 }  // namespace s7200::tools
