@@ -640,6 +640,11 @@ class Verbs(Case):
         self.assertEqual(self.interrupted_while_reading("long.yaml", b"steps:\n", "test", scenario, "--record", recorded), b"")
         self.assertFalse(recorded.exists())
 
+    def test_inspect_that_is_interrupted_says_so_in_its_json(self):
+        said = json.loads(self.interrupted_while_reading("long.stl", b"LD I0.0\n", "inspect", self.folder / "long.stl", "races", "--json"))
+        self.assertEqual((said["interrupted"], said["files"]), (True, []))
+        self.assertFalse(self.json(FINE, "inspect", self.program("LD I0.0\n= Q0.0\nMEND\n"), "races", "--json")["interrupted"])
+
     def test_import_capture_that_is_interrupted_while_it_reads_writes_json_and_no_file(self):
         log, imported = self.folder / "long.log", self.folder / "imported.yaml"
         for to in ([], ["-o", imported]):

@@ -31,10 +31,17 @@ bool can_hunt(const Scenario& scenario, const Bench& bench) {
   return bench.program && bench.problem.empty() && !scenario.plan && scenario.skipped.empty();
 }
 
+Pack& pack_of(std::vector<Pack>& packs, const std::shared_ptr<const Program>& program) {
+  const auto pack = std::ranges::find_if(packs, [&](const Pack& p) { return is_same_program(*p.program, *program); });
+  return pack != packs.end() ? *pack : packs.emplace_back(Pack{program, {}});
+}
+
+/// Programs with the scenarios that pass on them; after a stop request also programs whose scenarios were not run.
 std::vector<Pack> packs_of(const std::vector<Scenario>& scenarios, const Benches& benches, const HuntSettings& settings,
                            MutantsResult& result) {
   std::vector<Pack> packs;
-  for (std::size_t i = 0; i < scenarios.size() && !settings.stop.stop_requested(); ++i) {
+  std::size_t i = 0;
+  for (; i < scenarios.size(); ++i) {
     Bench bench = benches.of[i];
     if (!can_hunt(scenarios[i], bench)) {
       ++result.left_out;
@@ -42,15 +49,17 @@ std::vector<Pack> packs_of(const std::vector<Scenario>& scenarios, const Benches
     }
     bench.observed.coverage = true;
     const ScenarioResult as_it_is = run_scenario(scenarios[i], bench);
+    if (settings.stop.stop_requested()) break;
     if (as_it_is.outcome != ScenarioResult::Outcome::Passed) {
       ++(as_it_is.outcome == ScenarioResult::Outcome::Failed ? result.failing : result.left_out);
       continue;
     }
-    auto pack = std::ranges::find_if(packs, [&](const Pack& p) { return is_same_program(*p.program, *bench.program); });
-    if (pack == packs.end()) pack = packs.insert(packs.end(), Pack{bench.program, {}});
-    pack->hunters.push_back(
-        {&scenarios[i], &benches.of[i], as_it_is.coverage.programs().front().tried, as_it_is.host_seconds});
+    pack_of(packs, bench.program)
+        .hunters.push_back(
+            {&scenarios[i], &benches.of[i], as_it_is.coverage.programs().front().tried, as_it_is.host_seconds});
   }
+  for (; i < scenarios.size(); ++i)
+    if (can_hunt(scenarios[i], benches.of[i])) pack_of(packs, benches.of[i].program);
   for (Pack& pack : packs) std::ranges::stable_sort(pack.hunters, {}, &Hunter::host_seconds);
   return packs;
 }
@@ -123,8 +132,10 @@ MutantsResult hunt_mutants(const std::vector<Scenario>& scenarios, const Benches
             [&](std::size_t) {
               if (settings.progress) settings.progress(done, mutations.size());
             });
-    result.not_tried += mutations.size() - done;
+    all.not_tried = mutations.size() - done;
+    result.not_tried += all.not_tried;
   }
+  result.interrupted = settings.stop.stop_requested();
   return result;
 }
 

@@ -30,6 +30,7 @@ struct MutantsOfProgram {
   std::size_t noticed = 0;
   std::size_t same = 0;               ///< changes that are decoded to the same operations
   std::size_t refused = 0;            ///< changes that are no program
+  std::size_t not_tried = 0;          ///< changes that an interruption left out
   std::vector<Survivor> survivors{};  ///< in the order of the program
 };
 
@@ -37,7 +38,8 @@ struct MutantsResult {
   std::vector<MutantsOfProgram> programs{};
   std::size_t left_out = 0;   ///< scenarios that are skipped, or about a system or a slave outside
   std::size_t failing = 0;    ///< scenarios that fail without a change, and are left out too
-  std::size_t not_tried = 0;  ///< changes that an interruption left out
+  std::size_t not_tried = 0;  ///< changes that an interruption left out, of all programs
+  bool interrupted = false;
 };
 
 struct HuntSettings {

@@ -9,13 +9,23 @@
 
 namespace s7200::tools {
 
-std::string mutants_text(const MutantsOfProgram& mutants) {
-  const Inspection inspection(mutants.program);
+namespace {
+
+std::string share_text(const MutantsOfProgram& mutants) {
+  if (mutants.mutants == 0 && mutants.not_tried > 0) return "interrupted before the first change was tried";
   const double percent =
       mutants.mutants == 0 ? 100 : 100 * static_cast<double>(mutants.noticed) / static_cast<double>(mutants.mutants);
-  std::string text = fmt::format("mutants of {}, CPU {}\n  {} of {} noticed by {}, {:.1f}%\n",
-                                 stl::printable(coverage_name(*mutants.program)), mutants.program->model->name,
-                                 mutants.noticed, mutants.mutants, counted(mutants.scenarios, "scenario"), percent);
+  return fmt::format("{} of {} noticed by {}, {:.1f}%{}", mutants.noticed, mutants.mutants,
+                     counted(mutants.scenarios, "scenario"), percent,
+                     mutants.not_tried > 0 ? ", when it was interrupted" : "");
+}
+
+}  // namespace
+
+std::string mutants_text(const MutantsOfProgram& mutants) {
+  const Inspection inspection(mutants.program);
+  std::string text = fmt::format("mutants of {}, CPU {}\n  {}\n", stl::printable(coverage_name(*mutants.program)),
+                                 mutants.program->model->name, share_text(mutants));
   if (!mutants.survivors.empty()) text += "not noticed:\n";
   for (const Survivor& each : mutants.survivors)
     text += row_text(inspection, "  ", each.mutation.op) + "        " +
@@ -32,6 +42,7 @@ nlohmann::ordered_json mutants_json(const MutantsOfProgram& mutants) {
                               {"noticed", mutants.noticed},
                               {"same", mutants.same},
                               {"refused", mutants.refused},
+                              {"not_tried", mutants.not_tried},
                               {"survivors", nlohmann::ordered_json::array()}};
   for (const Survivor& each : mutants.survivors) {
     nlohmann::ordered_json one = place_json(inspection, each.mutation.op);

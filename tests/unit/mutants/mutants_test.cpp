@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 
 #include "tests/support/plc.hpp"
 #include "tests/support/slave_bench.hpp"
@@ -94,6 +95,25 @@ TEST(Mutants, AProgramThatLoopsForEverIsNoticed) {
                                         "after: 0s\nsteps:\n  - wait: 3 scans\n  - memory: {VW0: 0}\n");
   for (const Survivor& each : mutants.survivors) EXPECT_NE(each.mutation.what, "LD for LDN");
   EXPECT_GT(mutants.noticed, 3U);
+}
+
+TEST(Mutants, AnInterruptionBeforeTheFirstChangeSaysSoAndWhatWasLeftOut) {
+  const Scenario waits = read_scenarios("after: 0s\nsteps:\n  - wait: 3 scans\n", "file.yaml").scenarios.front();
+  Benches benches;
+  for (const char* const program : {"LD I0.0\n= Q0.0\nMEND\n", "LD I0.1\n= Q0.1\nMEND\n"})
+    benches.of.push_back({.program = test::compile(program)});
+  const std::atomic<bool> stop = true;
+  const MutantsResult result = hunt_mutants({waits, waits}, benches, {.stop = StopToken(stop)});
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.left_out, 0U) << "they can be run";
+  ASSERT_EQ(result.programs.size(), 2U);
+  for (const MutantsOfProgram& each : result.programs) {
+    EXPECT_GT(each.not_tried, 3U);
+    const std::string text = mutants_text(each);
+    EXPECT_NE(text.find("interrupted before the first change was tried"), std::string::npos) << text;
+    EXPECT_EQ(text.find('%'), std::string::npos) << text;
+  }
+  EXPECT_EQ(result.not_tried, result.programs[0].not_tried + result.programs[1].not_tried);
 }
 
 }  // namespace

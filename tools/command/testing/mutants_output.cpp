@@ -48,6 +48,7 @@ void print_results(const MutantsResult& result, bool json) {
   results["scenarios_left_out"] = result.left_out;
   results["scenarios_failing"] = result.failing;
   results["changes_not_tried"] = result.not_tried;
+  results["interrupted"] = result.interrupted;
   fmt::print("{}", lines_of(results));
 }
 
