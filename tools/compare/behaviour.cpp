@@ -86,7 +86,7 @@ class Pair {
     const Time end = std::max(before, new_bench.time()) + (frames ? kAnswers : kSettles);
     old_bench.run_until(end);
     new_bench.run_until(end);
-    state_.settled += end - before;
+    state_.settled += old_bench.time() - before;
     end_ = end;
   }
 
@@ -298,10 +298,11 @@ class Search {
     else
       pair_.restore(kept_[chance.one_in(2) ? kept_.size() - 1 - chance.below(recent) : chance.below(kept_.size())]);
     const Time before = pair_.old_bench.time();
-    for (std::uint64_t count = 1 + chance.below(3); count > 0 && !pair_.old_bench.stopped() && !pair_.new_bench.stopped();
-         --count)
-      pair_.apply(maker_.next(pair_.old_bench.cpu().state()));
+    for (std::uint64_t count = 1 + chance.below(3); count > 0; --count)
+      for (Stimulus& stimulus : maker_.next(pair_.old_bench.cpu().state()))
+        if (!pair_.old_bench.stopped() && !pair_.new_bench.stopped()) pair_.apply(std::move(stimulus));
     pair_.settle();
+    maker_.learn(pair_.old_bench.cpu().state());
     result_.simulated += pair_.old_bench.time() - before;
     look();
     if (settings_.progress) settings_.progress(result_.runs);

@@ -115,10 +115,14 @@ class Search {
     bench_.restore(kept_[from].state);
     const Time before = bench_.time();
     for (std::uint64_t count = chance.one_in(4) ? 2 : 1; count > 0 && !bench_.stopped(); --count) {
-      given.push_back(stimulus());
-      bench_.apply(given.back(), bench_.time() + given.back().wait);
+      for (Stimulus& next : stimuli()) {
+        if (bench_.stopped()) break;
+        bench_.apply(next, bench_.time() + next.wait);
+        given.push_back(std::move(next));
+      }
     }
     bench_.run_until(bench_.time() + kSettles);
+    maker_.learn(bench_.cpu().state());
     result_.simulated += bench_.time() - before;
     ++result_.runs;
     const bool news = bench_.contacts().add_run();
@@ -128,13 +132,17 @@ class Search {
     if (settings_.progress) settings_.progress(result_.runs);
   }
 
-  Stimulus stimulus() {
+  Trial stimuli() {
     Chance& chance = maker_.chance();
     const Vocabulary& words = maker_.words();
-    Stimulus next = chance.one_in(kDisturbsEvery)     ? maker_.disturbance()
-                    : words.port && !chance.one_in(5) ? maker_.frame()
-                                                      : maker_.next(bench_.cpu().state());
-    next.other_port = words.both_ports && comes_to_a_port(next) && chance.one_in(3);
+    Trial next;
+    if (chance.one_in(kDisturbsEvery))
+      next = {maker_.disturbance()};
+    else if (words.port && !chance.one_in(5))
+      next = {maker_.frame()};
+    else
+      next = maker_.next(bench_.cpu().state());
+    for (Stimulus& stimulus : next) stimulus.other_port = words.both_ports && comes_to_a_port(stimulus) && chance.one_in(3);
     return next;
   }
 

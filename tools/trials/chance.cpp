@@ -1,6 +1,7 @@
 #include "tools/trials/chance.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "serial_sim/modbus/crc.hpp"
 
@@ -9,6 +10,16 @@ namespace {
 
 constexpr std::size_t kMostRemembered = 256, kLongestFrame = 256;
 constexpr Time kLongestPreset = 2 * 3600 * kSecond;
+constexpr Time kPulse = 5 * kMillisecond;  ///< an input is on or off at least; a few scans
+constexpr std::uint32_t kMostPulses = 100;
+
+std::uint32_t number_at(const Vocabulary::Bytes& place, const State& now) {
+  std::uint32_t number = 0;
+  for (std::uint32_t i = 0; i < place.count; ++i) number = number << 8 | now.image[place.place + i];
+  return number;
+}
+
+std::uint32_t mask_of(std::uint8_t bytes) { return bytes >= 4 ? ~0u : (1u << 8 * bytes) - 1; }
 
 }  // namespace
 
@@ -38,33 +49,79 @@ std::uint32_t TrialMaker::value() {
   return static_cast<std::uint32_t>(chance_.one_in(2) ? any % 16 : any);
 }
 
-Stimulus TrialMaker::next(const State& now) {
-  using What = Stimulus::What;
+/// At the boundary of a comparison that the memory decides: equal, or one more or less.
+std::uint32_t TrialMaker::value_for(const Vocabulary::Bytes& place, const State& now) {
+  const auto decided = decides_.find(place.place);
+  if (decided == decides_.end() || chance_.one_in(3)) return value();
+  const Decided& one = chance_.one_of(decided->second);
+  const std::uint32_t difference = words_.comparisons[one.comparison].difference(now.image);
+  const std::uint32_t equal = number_at(place, now) - (one.against ? 0 - difference : difference);
+  return chance_.one_in(2) ? equal : static_cast<std::uint32_t>(equal + 2 * chance_.below(2) - 1);
+}
+
+Stimulus TrialMaker::set_memory(const Vocabulary::Bytes& place, const State& now) {
+  const std::uint32_t number = value_for(place, now);
+  set_ = Set{place, number_at(place, now), number, {}};
+  for (const Vocabulary::Comparison& each : words_.comparisons) set_->differences.push_back(each.difference(now.image));
+  Stimulus stimulus{.what = Stimulus::What::Memory, .place = place.place};
+  for (std::uint32_t i = place.count; i-- > 0;) stimulus.bytes.push_back(static_cast<std::uint8_t>(number >> 8 * i));
+  return stimulus;
+}
+
+void TrialMaker::learn(const State& after) {
+  const auto set = std::exchange(set_, std::nullopt);
+  if (!set) return;
+  for (std::size_t i = 0; i < words_.comparisons.size(); ++i) {
+    const Vocabulary::Comparison& comparison = words_.comparisons[i];
+    const std::uint32_t mask = mask_of(std::min(comparison.count, set->place.count));
+    const std::uint32_t by = (set->value - set->before) & mask;
+    const std::uint32_t changed = (comparison.difference(after.image) - set->differences[i]) & mask;
+    if (by == 0 || (changed != by && changed != ((0 - by) & mask))) continue;
+    const Decided decided{i, changed != by};
+    std::vector<Decided>& all = decides_[set->place.place];
+    if (std::ranges::find(all, decided) == all.end()) all.push_back(decided);
+  }
+}
+
+Stimulus TrialMaker::switch_inputs(const State& now) {
+  const Vocabulary::Bytes& input = chance_.one_of(words_.inputs);
+  std::uint8_t value = now.terminals[input.place];
+  std::uint8_t bits = 0;
+  while ((bits & input.mask) == 0)
+    bits = chance_.one_in(3) ? chance_.byte() : static_cast<std::uint8_t>(1u << chance_.below(8));
+  value ^= bits & input.mask;
+  return {.what = Stimulus::What::Input, .place = input.place, .bytes = {value}};
+}
+
+/// As many as a counter counts, or one more or less.
+Trial TrialMaker::pulses(const State& now) {
+  const std::uint32_t count = std::min(chance_.one_of(words_.counts), kMostPulses);
+  const Vocabulary::Bytes& input = chance_.one_of(words_.inputs);
+  std::uint8_t bit = 0;
+  while ((bit & input.mask) == 0) bit = static_cast<std::uint8_t>(1u << chance_.below(8));
+  Trial trial;
+  std::uint8_t value = now.terminals[input.place];
+  for (std::uint64_t turns = 2 * std::max<std::uint64_t>(1, count + chance_.below(3) - 1); turns > 0; --turns) {
+    value ^= bit;
+    trial.push_back({.wait = kPulse, .what = Stimulus::What::Input, .place = input.place, .bytes = {value}});
+  }
+  return trial;
+}
+
+Trial TrialMaker::next(const State& now) {
   const Time pause = wait();
   const std::uint64_t kinds[]{words_.inputs.empty() ? 0U : 6U, words_.analog.empty() ? 0U : 3U,
                               words_.commands.empty() ? 0U : 3U, words_.port ? 6U : 0U};
-  std::uint64_t drawn = chance_.below(kinds[0] + kinds[1] + kinds[2] + kinds[3]);
-  if (words_.empty()) return {.wait = pause, .what = What::Input, .place = 0, .bytes = {now.terminals[0]}};
-  if (drawn < kinds[0]) {
-    const Vocabulary::Bytes& input = chance_.one_of(words_.inputs);
-    std::uint8_t value = now.terminals[input.place];
-    std::uint8_t bits = 0;
-    while ((bits & input.mask) == 0)
-      bits = chance_.one_in(3) ? chance_.byte() : static_cast<std::uint8_t>(1u << chance_.below(8));
-    value ^= bits & input.mask;
-    return {.wait = pause, .what = What::Input, .place = input.place, .bytes = {value}};
-  }
-  drawn -= kinds[0];
-  if (drawn < kinds[1] + kinds[2]) {
-    const Vocabulary::Bytes& place = drawn < kinds[1] ? chance_.one_of(words_.analog) : chance_.one_of(words_.commands);
-    const std::uint32_t number = value();
-    Stimulus stimulus{.wait = pause, .what = What::Memory, .place = place.place};
-    for (std::uint32_t i = place.count; i-- > 0;) stimulus.bytes.push_back(static_cast<std::uint8_t>(number >> 8 * i));
-    return stimulus;
-  }
-  Stimulus stimulus = frame();
+  const std::uint64_t drawn = chance_.below(kinds[0] + kinds[1] + kinds[2] + kinds[3]);
+  if (words_.empty()) return {{.wait = pause, .what = Stimulus::What::Input, .place = 0, .bytes = {now.terminals[0]}}};
+  const bool inputs = drawn < kinds[0];
+  if (inputs && !words_.counts.empty() && chance_.one_in(4)) return pulses(now);
+  Stimulus stimulus = inputs                                   ? switch_inputs(now)
+                      : drawn < kinds[0] + kinds[1]            ? set_memory(chance_.one_of(words_.analog), now)
+                      : drawn < kinds[0] + kinds[1] + kinds[2] ? set_memory(chance_.one_of(words_.commands), now)
+                                                               : frame();
   stimulus.wait = pause;
-  return stimulus;
+  return {std::move(stimulus)};
 }
 
 void TrialMaker::remember(const std::vector<std::uint8_t>& frame) {

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <iterator>
+#include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -33,8 +35,12 @@ class TrialMaker {
  public:
   TrialMaker(Vocabulary words, std::uint64_t seed) : words_(std::move(words)), chance_(seed) {}
 
-  /// What may come next, for a PLC in this state. Time alone goes by if nothing else reaches the program.
-  Stimulus next(const State& now);
+  /// What may come next, for a PLC in this state: one stimulus, or an input that is switched on and off as often as a
+  /// counter counts. Time alone goes by if nothing else reaches the program.
+  Trial next(const State& now);
+
+  /// The state some scans after the last of next(): of memory that was set it is learnt which comparisons it decides.
+  void learn(const State& after);
 
   /// Any frame: a request that was answered, changed in its fields, lengths, CRC and gaps, cut, doubled or glued to another
   /// one; characters that the program compares with; or noise.
@@ -50,8 +56,25 @@ class TrialMaker {
   const Vocabulary& words() const { return words_; }
 
  private:
+  /// A comparison whose difference changes by as much as the memory that decides it.
+  struct Decided {
+    std::size_t comparison = 0;  ///< in words_
+    bool against = false;        ///< it shrinks as the memory grows
+    bool operator==(const Decided&) const = default;
+  };
+  /// Memory that was set last.
+  struct Set {
+    Vocabulary::Bytes place;
+    std::uint32_t before = 0, value = 0;
+    std::vector<std::uint32_t> differences;  ///< of all comparisons, before it was set
+  };
+
   Time wait();
   std::uint32_t value();
+  std::uint32_t value_for(const Vocabulary::Bytes& place, const State& now);
+  Stimulus set_memory(const Vocabulary::Bytes& place, const State& now);
+  Stimulus switch_inputs(const State& now);
+  Trial pulses(const State& now);
   std::vector<std::uint8_t> well_formed();
   std::vector<std::uint8_t> write_of_several();
   std::vector<std::uint8_t> characters();
@@ -60,6 +83,8 @@ class TrialMaker {
   Vocabulary words_;
   Chance chance_;
   std::vector<std::vector<std::uint8_t>> remembered_{};
+  std::optional<Set> set_{};
+  std::map<std::uint32_t, std::vector<Decided>> decides_{};  // by place
 };
 
 }  // namespace s7200::tools

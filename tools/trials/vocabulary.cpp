@@ -6,6 +6,7 @@
 #include "interpreter/analysis/cross_reference.hpp"
 #include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/analysis/memory_map.hpp"
+#include "interpreter/model/contact_form.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "tools/trials/trial_bench.hpp"
@@ -26,8 +27,10 @@ class Listener {
 
   Vocabulary words() {
     for (const ReferenceEntry& entry : reference_.entries) look_at(entry);
+    add_pointed_at();
     add_edges();
     add_constants();
+    add_comparisons();
     add_presets();
     add_ports();
     return std::move(words_);
@@ -45,10 +48,31 @@ class Listener {
     const Usage usage = usage_of(facts_.program, entry);
     if (usage == Usage::NeverWritten || usage == Usage::SetByData)
       for (const Bits& part : entry.parts)
-        if (part.count <= 32)
-          add_once(words_.commands,
-                   Vocabulary::Bytes{static_cast<std::uint32_t>(part.first / 8),
-                                     static_cast<std::uint8_t>(std::max<std::uint64_t>(1, part.count / 8)), 0xFF});
+        if (part.count <= 32) add_once(words_.commands, command_at(part));
+  }
+
+  bool is_written(const Bits& bits) const {
+    for (const auto& effects : facts_.effects)
+      for (const MemoryAccess& access : effects)
+        if (access.writes() && access.bits.overlaps(bits) && !is_anywhere(facts_.program, access)) return true;
+    return false;
+  }
+
+  /// What is read through a pointer that leads to known addresses, and that nothing writes.
+  void add_pointed_at() {
+    for (const auto& effects : facts_.effects)
+      for (const MemoryAccess& access : effects) {
+        const Area area = area_of(access.bits);
+        if (!access.reads() || !access.by_pointer || access.bits.count > 32 || (area != Area::V && area != Area::M) ||
+            is_anywhere(facts_.program, access) || is_written(access.bits))
+          continue;
+        add_once(words_.commands, command_at(access.bits));
+      }
+  }
+
+  static Vocabulary::Bytes command_at(const Bits& bits) {
+    return {static_cast<std::uint32_t>(bits.first / 8),
+            static_cast<std::uint8_t>(std::max<std::uint64_t>(1, bits.count / 8)), 0xFF};
   }
 
   void add_input(std::uint32_t bit) {
@@ -90,6 +114,23 @@ class Listener {
     words_.constants.assign(all.begin(), all.end());
   }
 
+  void add_comparisons() {
+    for (const Op& op : facts_.program.ops) {
+      const ContactForm form = contact_form(*op.instruction);
+      if (form.kind != ContactForm::Kind::Numbers || form.type == ContactForm::Type::Real) continue;
+      const auto left = side(op[0]), right = side(op[1]);
+      if (!left || !right || (!left->place && !right->place)) continue;
+      add_once(words_.comparisons, Vocabulary::Comparison{*left, *right, static_cast<std::uint8_t>(op[0].width)});
+    }
+  }
+
+  /// Nothing where a pointer leads.
+  std::optional<Vocabulary::Comparison::Side> side(const s7200::Operand& operand) const {
+    if (operand.pointer || operand.unread()) return {};
+    if (const auto value = constant(operand)) return Vocabulary::Comparison::Side{{}, *value};
+    return Vocabulary::Comparison::Side{operand.at};
+  }
+
   /// The word that the data block sets there.
   std::optional<std::int32_t> data_word(const s7200::Operand& operand) const {
     for (const InitialData& data : facts_.program.data) {
@@ -100,12 +141,18 @@ class Listener {
     return {};
   }
 
+  std::optional<std::int32_t> preset_of(const MemoryMap::Element& element, const s7200::Operand& operand) const {
+    return element.preset ? element.preset : operand.pointer ? std::nullopt : data_word(operand);
+  }
+
   void add_presets() {
-    for (const MemoryMap::Element& timer : memory_map(facts_, reference_).timers) {
-      const s7200::Operand& preset = facts_.program.ops[timer.op][1];
-      const auto count = timer.preset ? timer.preset : preset.pointer ? std::nullopt : data_word(preset);
-      if (count && *count > 0) add_once(words_.presets, *count * timer_base(timer.number).base);
-    }
+    const MemoryMap map = memory_map(facts_, reference_);
+    for (const MemoryMap::Element& timer : map.timers)
+      if (const auto count = preset_of(timer, facts_.program.ops[timer.op][1]); count && *count > 0)
+        add_once(words_.presets, *count * timer_base(timer.number).base);
+    for (const MemoryMap::Element& counter : map.counters)
+      if (const auto count = preset_of(counter, facts_.program.ops[counter.op][1]); count && *count > 0)
+        add_once(words_.counts, static_cast<std::uint32_t>(*count));
   }
 
   /// Ports with RCV, or with a routine for received characters.
@@ -128,6 +175,15 @@ class Listener {
 
 }  // namespace
 
+std::uint32_t Vocabulary::Comparison::difference(std::span<const std::uint8_t> image) const {
+  const auto value = [&](const Side& side) {
+    std::uint32_t bytes = side.value;
+    for (std::uint32_t i = 0; side.place && i < count; ++i) bytes = bytes << 8 | image[*side.place + i];
+    return bytes;
+  };
+  return value(left) - value(right);
+}
+
 void Vocabulary::add(const Vocabulary& other) {
   for (const Bytes& input : other.inputs) {
     const auto found = std::ranges::find(inputs, input.place, &Bytes::place);
@@ -140,6 +196,8 @@ void Vocabulary::add(const Vocabulary& other) {
   for (const Bytes& command : other.commands) add_once(commands, command);
   for (const std::uint32_t constant : other.constants) add_once(constants, constant);
   for (const Time preset : other.presets) add_once(presets, preset);
+  for (const std::uint32_t count : other.counts) add_once(counts, count);
+  for (const Comparison& comparison : other.comparisons) add_once(comparisons, comparison);
   for (const auto& request : other.requests) add_once(requests, request);
   if (!port) port = other.port;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "interpreter/analysis/effects/facts.hpp"
@@ -17,11 +18,27 @@ struct Vocabulary {
     std::uint8_t mask = 0xFF;  ///< of input points: those that it looks at
     bool operator==(const Bytes&) const = default;
   };
+  /// A comparison of whole numbers.
+  struct Comparison {
+    struct Side {
+      std::optional<std::uint32_t> place{};  ///< in the image; nothing: a constant
+      std::uint32_t value = 0;               ///< of a constant
+      bool operator==(const Side&) const = default;
+    };
+    Side left, right;
+    std::uint8_t count = 1;  ///< bytes of a side
+    bool operator==(const Comparison&) const = default;
+
+    /// How much larger the left side is, modulo its bits.
+    std::uint32_t difference(std::span<const std::uint8_t> image) const;
+  };
   std::vector<Bytes> inputs;                          ///< bytes of input points
   std::vector<Bytes> analog;                          ///< words of analog inputs
   std::vector<Bytes> commands;                        ///< V and M that it reads, and that only its data block or nobody sets
+  std::vector<Comparison> comparisons{};              ///< at addresses that are known, each once
   std::vector<std::uint32_t> constants;               ///< that its instructions have, each once
   std::vector<Time> presets;                          ///< of its timers, in ns
+  std::vector<std::uint32_t> counts{};                ///< presets of its counters
   std::optional<std::uint8_t> port{};                 ///< the first at which it receives; nothing: at none
   bool both_ports = false;                            ///< it receives at the other one too
   std::vector<std::vector<std::uint8_t>> requests{};  ///< frames that it has answered

@@ -1,6 +1,10 @@
 // What `s7200 compare` finds different in what two programs do.
 #include "tools/compare/behaviour.hpp"
 
+#include <fmt/format.h>
+
+#include <utility>
+
 #include "tests/support/inspected.hpp"
 
 namespace s7200::tools::behaviour_test {
@@ -49,6 +53,33 @@ TEST(Behaviour, TheScenarioOfADifferenceIsKnownToPassWithTheOldProgramOnly) {
   ASSERT_FALSE(scenario.empty());
   EXPECT_TRUE(findings_of(scenario, "difference.yaml", both.older.program)->empty());
   EXPECT_FALSE(findings_of(scenario, "difference.yaml", both.newer.program)->empty());
+}
+
+TEST(Behaviour, ACounterGetsAsManyEdgesAsItsPresetAsks) {
+  const std::string counts = "LD I0.4\nLD I0.5\nCTU C1, 12\nLD C1\nA I0.0\n= Q0.0\nMEND\n";
+  const Behaviours both(counts, with_change(counts, "C1, 12", "C1, 13"));
+  ASSERT_TRUE(both.result.difference);
+  EXPECT_EQ(both.result.difference->what, "Q0.0");
+}
+
+TEST(Behaviour, MemoryThatOnlyAPointerReadsIsSetToo) {
+  const std::string points =
+      "LD SM0.1\nMOVD &VB100, VD50\nLD SM0.0\nMOVW *VD50, VW60\nLDW>= VW60, 50\nA V200.0\n= Q0.7\nMEND\n";
+  for (const auto& [what, by] : {std::pair("&VB100", "&VB102"), std::pair("VW60, 50", "VW60, 51")}) {
+    const Behaviours both(points, with_change(points, what, by));
+    ASSERT_TRUE(both.result.difference) << by;
+    EXPECT_EQ(both.result.difference->what, "Q0.7");
+  }
+}
+
+TEST(Behaviour, TheBoundaryOfAComparisonIsTriedThroughSumsAndDifferences) {
+  for (const std::string_view works_out : {"MOVW VW10, AC0\n+I 5, AC0\n", "MOVW 300, AC0\n-I VW10, AC0\n"}) {
+    const std::string compares = fmt::format("LD SM0.0\n{}MOVW AC0, VW20\nLDW>= VW20, 12345\n= Q0.0\nMEND\n", works_out);
+    const Behaviours both(compares, with_change(compares, "12345", "12344"));
+    ASSERT_TRUE(both.result.difference) << works_out;
+    EXPECT_EQ(both.result.difference->older, "0");
+    EXPECT_EQ(both.result.difference->newer, "1");
+  }
 }
 
 TEST(Behaviour, ProgramsThatDoTheSameInOtherWordsHaveAllContactsSeenAndNoDifference) {

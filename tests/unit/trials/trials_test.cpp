@@ -79,6 +79,20 @@ TEST(Vocabulary, IsWhatReachesAProgramFromOutside) {
   EXPECT_FALSE(words.port);
 }
 
+TEST(Vocabulary, KnowsWhatPointersReadAndWhatDecides) {
+  const auto inspection = inspected(
+      "LD SM0.1\nMOVD &VB100, VD50\nLD SM0.0\nMOVW *VD50, VW60\nLDW>= VW60, 50\nLD I0.0\nLD I0.1\nCTU C1, 3\nMEND\n", {},
+      *find_cpu("214"));
+  const Vocabulary words = vocabulary_of(inspection.facts);
+  ASSERT_EQ(words.commands.size(), 1U);
+  EXPECT_EQ(words.commands[0].place, image::kV + 100);
+  EXPECT_EQ(words.counts, std::vector<std::uint32_t>{3});
+  ASSERT_EQ(words.comparisons.size(), 1U);
+  std::vector<std::uint8_t> image(image::kSize);
+  image[image::kV + 61] = 48;
+  EXPECT_EQ(words.comparisons[0].difference(image), std::uint32_t(-2));
+}
+
 TEST(Shortened, LeavesOutWhatDoesNotMatter) {
   Trial trial;
   for (std::uint8_t i = 0; i < 20; ++i)
