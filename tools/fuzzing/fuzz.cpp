@@ -65,7 +65,8 @@ class Search {
   struct Kept {
     TrialBench::Snapshot state;
     Trial trial;
-    Time settled = 0;  ///< since the last stimulus was over
+    Time settled =
+        0;  ///< since the last stimulus was over, to the nanosecond: an instruction ends after the time it was run to
   };
 
   /// What comes over a port is tried there. A panel at a port in PPI mode sets memory.
@@ -102,7 +103,7 @@ class Search {
     take(oracle_.look(bench_, powered_up), {});
     bench_.contacts().add_run();
     first_ = bench_.cpu().state();
-    if (!bench_.stopped() && bench_.time() >= kReady) kept_.push_back({bench_.snapshot(), {}, kReady});
+    if (!bench_.stopped() && bench_.time() >= kReady) kept_.push_back({bench_.snapshot(), {}, bench_.time()});
   }
 
   void one_run() {
@@ -121,14 +122,15 @@ class Search {
         given.push_back(std::move(next));
       }
     }
-    bench_.run_until(bench_.time() + kSettles);
+    const Time over = bench_.time();
+    bench_.run_until(over + kSettles);
     maker_.learn(bench_.cpu().state());
     result_.simulated += bench_.time() - before;
     ++result_.runs;
     const bool news = bench_.contacts().add_run();
     auto found = oracle_.look(bench_, kept_[from].state.cpu);
     if (news || !found.empty() || result_.runs % kAsksEvery == 0)
-      look_closer(from, std::move(given), std::move(found), news);
+      look_closer(from, std::move(given), std::move(found), news, over);
     if (settings_.progress) settings_.progress(result_.runs);
   }
 
@@ -146,7 +148,8 @@ class Search {
     return next;
   }
 
-  void look_closer(std::size_t from, Trial given, std::vector<FuzzFinding> found, bool news) {
+  /// `over`: when the last stimulus was over.
+  void look_closer(std::size_t from, Trial given, std::vector<FuzzFinding> found, bool news, Time over) {
     Trial trial = kept_[from].trial;
     given.front().wait += kept_[from].settled;
     trial.insert(trial.end(), given.begin(), given.end());
@@ -155,7 +158,7 @@ class Search {
     if (bench_.stopped() || !clean) return;
     const auto after = bench_.snapshot();
     if (news && kept_.size() < kMostKept) {
-      kept_.push_back({after, trial, kSettles});
+      kept_.push_back({after, trial, bench_.time() - over});
       for (const Stimulus& stimulus : given)
         if (stimulus.what == Stimulus::What::Frame) maker_.remember(stimulus.bytes);
     }
@@ -218,9 +221,10 @@ class Search {
   void come_down(FuzzFinding& finding) {
     finding.trial = shortened(
         finding.trial, [&](const Trial& trial) { return leads_to(trial, finding); }, kMostShortening);
-    if (!leads_to(finding.trial, finding)) return;
+    finding.comes_again = leads_to(finding.trial, finding);
     finding.begun = begun_;
     finding.at = bench_.time();
+    if (!finding.comes_again) return;
     if (finding.kind == Kind::Error)
       for (const RuntimeError& error : bench_.cpu().state().errors)
         if (error.count > 0 && error.code == finding.code && error.op == finding.op.value_or(kNoRoutine))
@@ -246,6 +250,7 @@ FuzzResult fuzz(const Inspection& inspection, const FuzzSettings& settings) { re
 
 Result<std::string> finding_scenario(const Inspection& inspection, const FuzzResult& result, const FuzzFinding& finding,
                                      const std::string& path, const ScenarioOrigin& origin) {
+  if (!finding.comes_again) return Trouble{"it did not come again when its inputs were given from power-up"};
   if (finding.end.empty()) return Trouble{"no address of the rule can be expected to have another value"};
   TrialScenario scenario{.name = finding.what, .origin = origin, .port = result.port, .trial = finding.trial};
   scenario.begun = finding.begun;

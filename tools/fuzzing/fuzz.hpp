@@ -51,6 +51,7 @@ struct FuzzFinding {
   Time at = 0;                          ///< since power-up
   Trial trial{};                        ///< the shortest that leads there
   std::vector<Time> begun{};            ///< when each stimulus comes
+  bool comes_again = true;              ///< when the trial is run from power-up
   std::vector<std::uint8_t> request{};  ///< Unanswered
   std::string end{};                    ///< steps of a scenario that fail because of it
 

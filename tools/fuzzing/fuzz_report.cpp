@@ -30,7 +30,8 @@ std::string finding_text(const Inspection& inspection, const FuzzFinding& findin
   if (finding.op)
     text += fmt::format("   {}  {}\n", place_in_words(inspection, *finding.op), instruction_text(inspection, *finding.op));
   text += fmt::format("   {} after power-up", format_duration(finding.at, 3));
-  return text + (finding.trial.empty() ? ", without any input\n" : ", after\n" + trial_text(finding.trial, finding.begun));
+  text += finding.trial.empty() ? ", without any input\n" : ", after\n" + trial_text(finding.trial, finding.begun);
+  return text + (finding.comes_again ? "" : "   it did not come again when these inputs were given from power-up\n");
 }
 
 std::string listening_text(const FuzzResult& result) {
@@ -84,6 +85,7 @@ ordered_json fuzz_json(const Inspection& inspection, const FuzzResult& result) {
     ordered_json entry{{"kind", kind_word(finding.kind)}, {"what", finding.what}, {"at_ns", finding.at}};
     entry["code"] = finding.code != 0 ? ordered_json(fmt::format("{:04X}", finding.code)) : ordered_json();
     entry["by"] = finding.op ? place_json(inspection, *finding.op) : ordered_json();
+    entry["comes_again"] = finding.comes_again;
     entry["inputs"] = trial_json(finding.trial, finding.begun);
     json["findings"].push_back(std::move(entry));
   }

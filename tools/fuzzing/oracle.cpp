@@ -91,7 +91,8 @@ bool Oracle::is_silent(TrialBench& bench, const std::vector<std::uint8_t>& reque
     bench.run_until(bench.time() + wait);
     const std::size_t unasked = bench.done().sent.size();
     bench.apply({.what = Stimulus::What::Frame, .bytes = request}, bench.time());
-    return bench.done().sent.size() == unasked && unasked == before && !bench.stopped();
+    const bool rule_broken = std::exchange(broken_, std::nullopt).has_value();  // then the run has ended there
+    return bench.done().sent.size() == unasked && unasked == before && !bench.stopped() && !rule_broken;
   };
   if (!silent_after(kGrace) || !silent_after(settings_.answers_within)) return false;
   bench.run_until(bench.time() + settings_.answers_within);
