@@ -21,8 +21,8 @@ void add_marks(std::vector<std::uint8_t>& to, const std::vector<std::uint8_t>& f
 CoverageMap::CoverageMap(std::shared_ptr<const Program> program)
     : program_(std::move(program)),
       forms_(forms_of(*program_)),
-      decisions_(decisions_of(*program_, forms_)),
-      in_decision_(program_->ops.size()) {
+      decisions_(tools::decisions_of(*program_, forms_)),
+      decisions_of_(program_->ops.size()) {
   std::uint32_t decision = 0;
   for (std::uint32_t op = 0; op < program_->ops.size(); ++op) {
     first_.push_back(decision);
@@ -33,8 +33,8 @@ CoverageMap::CoverageMap(std::shared_ptr<const Program> program)
                                                         : tools::why_constant(program_->ops[op], form));
   }
   first_.push_back(decision);
-  for (const Decision& each : decisions_.all)
-    for (const std::uint32_t op : each.contacts) in_decision_[op] = true;
+  for (std::uint32_t number = 0; number < decisions_.all.size(); ++number)
+    for (const std::uint32_t op : decisions_.all[number].contacts) decisions_of_[op].push_back(number);
 }
 
 bool CoverageMap::is_instruction(std::uint32_t op) const {
@@ -66,6 +66,7 @@ void CoverageSink::begin(const Cpu& cpu) {
   cpu_ = &cpu;
   level_ = 0;
   seen_.assign(map_->program().ops.size(), {});
+  for (Known& known : known_) known.changed = true;
 }
 
 void CoverageSink::record(const TraceRecord& record) {
@@ -92,41 +93,47 @@ std::uint8_t CoverageSink::level_now() const {
 
 void CoverageSink::instruction(const InstructionRecord& record) {
   tried_.marks[record.op] |= record.powered ? Tried::kExecuted : Tried::kSkipped;
-  const Op& op = map_->program().ops[record.op];
-  if (const ContactForm& form = map_->form(record.op); form.is_contact()) {
-    see(op, form, record);
-  } else {
-    const auto [first, end] = map_->decisions_at(record.op);
-    for (std::uint32_t decision = first; decision < end; ++decision) decide(decision);
-    level_ = level_now();
-  }
+  if (const ContactForm& form = map_->form(record.op); form.is_contact()) return see(form, record);
+  const auto [first, end] = map_->decisions_at(record.op);
+  for (std::uint32_t decision = first; decision < end; ++decision)
+    if (known_[decision].changed || known_[decision].level != level_) decide(decision);
+  level_ = level_now();
 }
 
-void CoverageSink::see(const Op& op, const ContactForm& form, const InstructionRecord& record) {
-  LastSeen& seen = seen_[record.op];
+void CoverageSink::see(const ContactForm& form, const InstructionRecord& record) {
+  const Op& op = map_->program().ops[record.op];
   const bool step_is_off = op.in_segment && !cpu_->state().rail;  // then no contact of it lets anything through
-  const auto closed = step_is_off ? std::nullopt : lets_through(*cpu_, op, form, record);
+  std::optional<bool> closed;
+  if (!step_is_off)
+    closed = form.kind == ContactForm::Kind::Bit ? (record.value[0].value_or(0) != 0) != form.inverted
+                                                 : lets_through(*cpu_, op, form, record);
+  LastSeen seen = seen_[record.op];
   seen.level = closed ? level_ : kNever;
   if (closed) {
     tried_.marks[record.op] |= *closed ? Tried::kClosed : Tried::kOpen;
     seen.closed = *closed;
   }
-  if (!form.is_edge()) return;
-  seen.before = seen.now;
-  seen.now = edge_memory(record.op);
+  if (form.is_edge()) {
+    seen.before = seen.now;
+    seen.now = edge_memory(record.op);
+  }
+  if (seen == seen_[record.op]) return;
+  seen_[record.op] = seen;
+  for (const std::uint32_t decision : map_->decisions_of(record.op)) known_[decision].changed = true;
 }
 
-bool CoverageSink::is_known(Known& known, std::uint64_t key) const {
-  if (known.any && known.last == key) return true;
-  known.any = true;
-  known.last = key;
+bool CoverageSink::is_known(Known& known, std::uint64_t key) {
   if (known.keys.contains(key)) return true;
   if (known.keys.size() < kMostKept) known.keys.insert(key);
   return false;
 }
 
+/// Worked out anew only after something of it has changed: as often as not nothing has.
 void CoverageSink::decide(std::uint32_t number) {
   const Decision& decision = map_->decisions()[number];
+  Known& known = known_[number];
+  known.changed = false;
+  known.level = level_;
   const std::size_t contacts = decision.contacts.size();
   std::uint64_t key = 0;
   for (const std::uint32_t op : decision.contacts) {
@@ -134,7 +141,7 @@ void CoverageSink::decide(std::uint32_t number) {
     if (seen.level != level_) return;
     key = key << 2 | (seen.closed ? 2 : 0) | (seen.before ? 1 : 0);
   }
-  if (2 * contacts <= kKeyBits && is_known(known_[number], key)) return;
+  if (2 * contacts <= kKeyBits && is_known(known, key)) return;
   now_.closed.resize(contacts);
   now_.before.resize(contacts);
   for (std::size_t i = 0; i < contacts; ++i) {

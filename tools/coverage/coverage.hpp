@@ -27,6 +27,8 @@ class CoverageMap {
 
   /// The decisions of an op, as numbers: from the first until before the second.
   std::pair<std::uint32_t, std::uint32_t> decisions_at(std::uint32_t op) const { return {first_[op], first_[op + 1]}; }
+  /// The decisions that a contact is part of, as numbers.
+  const std::vector<std::uint32_t>& decisions_of(std::uint32_t op) const { return decisions_of_[op]; }
 
   /// Heads of routines and labels are places, and nothing that is executed.
   bool is_instruction(std::uint32_t op) const;
@@ -35,7 +37,7 @@ class CoverageMap {
   /// Why a contact is always the same; empty of any other op.
   const std::string& why_constant(std::uint32_t op) const { return constant_[op]; }
   /// Whether it is part of a condition, so that it may decide alone.
-  bool may_decide(std::uint32_t op) const { return is_contact(op) && in_decision_[op]; }
+  bool may_decide(std::uint32_t op) const { return is_contact(op) && !decisions_of_[op].empty(); }
 
  private:
   std::shared_ptr<const Program> program_;
@@ -43,7 +45,7 @@ class CoverageMap {
   Decisions decisions_;
   std::vector<std::uint32_t> first_;  ///< by op, and one more: of its decisions
   std::vector<std::string> constant_;
-  std::vector<bool> in_decision_;
+  std::vector<std::vector<std::uint32_t>> decisions_of_;  ///< by op
 };
 
 /// What was tried, by one run or several.
@@ -93,23 +95,24 @@ class CoverageSink final : public TraceSink {
     bool before = false;  ///< of EU and ED: what had reached it before
     bool now = false;     ///< and what has reached it
     std::uint8_t level = kNever;
+    bool operator==(const LastSeen&) const = default;
   };
   static constexpr std::uint8_t kNever = 0xFF;
   static constexpr std::size_t kMostKept = 4096;  ///< combinations that are known to bring nothing new, of a decision
   static constexpr std::size_t kKeyBits = 64;
 
   struct Known {
-    std::uint64_t last = ~std::uint64_t{0};
-    bool any = false;
+    bool changed = true;          ///< a contact of it was otherwise than before, since it was worked out
+    std::uint8_t level = kNever;  ///< that it was worked out at
     std::unordered_set<std::uint64_t> keys{};
   };
 
   std::uint8_t level_now() const;
   void remember_edges();
   bool edge_memory(std::uint32_t op) const;
-  void see(const Op& op, const ContactForm& form, const InstructionRecord& record);
+  void see(const ContactForm& form, const InstructionRecord& record);
   void decide(std::uint32_t number);
-  bool is_known(Known& known, std::uint64_t key) const;
+  static bool is_known(Known& known, std::uint64_t key);
 
   std::shared_ptr<const CoverageMap> map_;
   const Cpu* cpu_ = nullptr;

@@ -127,6 +127,7 @@ void ProfileSink::begin(const Cpu& cpu) {
   if (cpu_) account_until(cpu_->time());
   cpu_ = &cpu;
   last_ = cpu.time();
+  executed_last_ = {};
   stopped_ = true;
   scan_.reset();
   stack_ = {0};
@@ -141,6 +142,13 @@ Profile ProfileSink::profile() const {
   profile.system += rest;
   profile.total += rest;
   return profile;
+}
+
+/// Another routine goes on, or the scan is over.
+void ProfileSink::leave_routine() {
+  if (scan_) scan_->routines[stack_.back()] += in_routine_;
+  in_routine_ = 0;
+  here_ = nullptr;
 }
 
 Profile::OfStack& ProfileSink::here() {
@@ -165,6 +173,7 @@ void ProfileSink::account_until(Time at) {
 }
 
 void ProfileSink::end_scan(Time at) {
+  leave_routine();
   if (!scan_) return;
   scan_->length = at - scan_->begin;
   profile_.scans.add(scan_->length);
@@ -183,6 +192,7 @@ void ProfileSink::begin_scan(const TraceRecord& record) {
   for (const std::uint32_t network : networks_of_scan_) in_networks_[network] = 0;
   networks_of_scan_.clear();
   scan_->routines.assign(flow_.routines.size(), 0);
+  in_routine_ = 0;
   if (in_interrupt_) return;
   stack_ = {0};
   here_ = nullptr;
@@ -191,13 +201,15 @@ void ProfileSink::begin_scan(const TraceRecord& record) {
 
 void ProfileSink::begin_service(const TraceRecord& record) {
   account_until(record.at);
+  leave_routine();
   interrupted_ = std::exchange(stack_, {flow_.nodes[program_->interrupt[record.routine]].routine});
-  here_ = nullptr;
   in_interrupt_ = enters_ = true;
   depth_ = cpu_->state().call_depth;
   if (scan_) ++scan_->interrupts;
   ProfiledEvent& event = profile_.events[record.event];
   const Time waited = record.at - record.since;
+  if (executed_last_.op != kNoRoutine)
+    reasons_.note({.at = executed_last_.at, .end = executed_last_.end, .op = executed_last_.op});
   event.routine = record.routine;
   event.latency.add(waited);
   if (waited > event.worst.waited) event.worst = {record.at, waited, reasons_.of(record), {}};
@@ -213,6 +225,7 @@ void ProfileSink::record(const TraceRecord& record) {
       break;
     case TraceKind::ModeChange:
       account_until(record.at);
+      executed_last_ = {};
       stopped_ = true;
       scan_.reset();
       stack_ = {0};
@@ -234,13 +247,13 @@ void ProfileSink::instruction(const InstructionRecord& record) {
   profile_.total += took;
   here().ops[record.op] += took;
   if (scan_) {
-    scan_->routines[stack_.back()] += took;
+    in_routine_ += took;
     const std::uint32_t network = network_of_[record.op];
     if (in_networks_[network] == 0 && took != 0) networks_of_scan_.push_back(network);
     in_networks_[network] += took;
   }
   ++profile_.executed[record.op];
-  reasons_.note(record);
+  executed_last_ = {record.at, record.end, record.op};
   follow();
 }
 
@@ -249,15 +262,15 @@ void ProfileSink::follow() {
   const State& state = cpu_->state();
   if (in_interrupt_ && !state.in_interrupt) {
     profile_.events[state.serving_event].service.add(last_ - state.serving_since);
+    leave_routine();
     stack_ = interrupted_;
-    here_ = nullptr;
     in_interrupt_ = false;
   } else if (state.call_depth > depth_) {
+    leave_routine();
     stack_.push_back(flow_.nodes[state.pc].routine);
-    here_ = nullptr;
   } else if (state.call_depth < depth_ && stack_.size() > 1) {
+    leave_routine();
     stack_.pop_back();
-    here_ = nullptr;
   }
   depth_ = state.call_depth;
 }

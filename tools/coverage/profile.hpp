@@ -119,7 +119,13 @@ class ProfileSink final : public TraceSink {
   Watch watch() const override { return Watch::Flow; }
 
  private:
+  struct Executed {
+    Time at = 0, end = 0;
+    std::uint32_t op = kNoRoutine;
+  };
+
   void account_until(Time at);
+  void leave_routine();
   void begin_scan(const TraceRecord& record);
   void begin_service(const TraceRecord& record);
   void follow();
@@ -131,15 +137,17 @@ class ProfileSink final : public TraceSink {
   TraceReasons reasons_;
   const Cpu* cpu_ = nullptr;
   Profile profile_;
-  Time last_ = 0;        // up to where time is accounted for
-  bool enters_ = false;  // the CPU enters an interrupt routine
-  bool stopped_ = true;  // no power yet, or STOP
+  Executed executed_last_{};  // all that reasons_ need of instructions, when an interrupt is served
+  Time last_ = 0;             // up to where time is accounted for
+  bool enters_ = false;       // the CPU enters an interrupt routine
+  bool stopped_ = true;       // no power yet, or STOP
   std::uint8_t depth_ = 0;
   bool in_interrupt_ = false;
   Profile::Stack stack_, interrupted_;
   Profile::OfStack* here_ = nullptr;  // of stack_; null: not looked up
+  Time in_routine_ = 0;               // in this scan in the last of stack_, not yet in scan_
   std::optional<ProfiledScan> scan_;
-  std::vector<std::uint32_t> network_of_;              // by op, the first one
+  std::vector<std::uint32_t> network_of_;          // by op, the first one
   std::vector<Time> in_networks_;                  // by the first op: their time in the scan so far
   std::vector<std::uint32_t> networks_of_scan_{};  // the first ops of those that took any
 };
