@@ -8,6 +8,7 @@
 
 #include "interpreter/base/file_path.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "tools/coverage/programs.hpp"
 #include "tools/views/escapes.hpp"
 
 namespace s7200::tools {
@@ -98,7 +99,7 @@ struct LcovFile {
 class LcovOfProgram {
  public:
   explicit LcovOfProgram(const ProgramCoverage& coverage)
-      : map_(*coverage.map), tried_(coverage.tried), inspection_(map_.shared_program()) {
+      : map_(*coverage.map), tried_(coverage.tried), inspection_(for_places(map_.shared_program())) {
     for (const Routine& routine : inspection_.facts.flow.routines) add(routine);
     for (std::uint32_t op = 0; op < map_.program().ops.size(); ++op)
       if (map_.is_instruction(op)) add(op);

@@ -167,7 +167,7 @@ std::string figures_text(const CoverageFigures& figures) {
 
 std::string coverage_text(const ProgramCoverage& coverage) {
   const CoverageMap& map = *coverage.map;
-  const Inspection inspection(map.shared_program());
+  const Inspection inspection = for_places(map.shared_program());
   const FigureReader reader(map, coverage.tried);
   const CoverageFigures figures = figures_of(map, coverage.tried);
   std::string text =
@@ -199,7 +199,7 @@ nlohmann::ordered_json figures_json(const CoverageFigures& figures) {
 
 nlohmann::ordered_json coverage_json(const ProgramCoverage& coverage) {
   const CoverageMap& map = *coverage.map;
-  const Inspection inspection(map.shared_program());
+  const Inspection inspection = for_places(map.shared_program());
   const FigureReader reader(map, coverage.tried);
   nlohmann::ordered_json json{{"program", coverage_name(map.program())}, {"cpu", map.program().model->name}};
   json.update(figures_json(figures_of(map, coverage.tried)));

@@ -40,7 +40,7 @@ std::vector<TimeRow> longest_first(std::vector<TimeRow> rows) {
 class NamedProfile {
  public:
   explicit NamedProfile(const Profile& profile)
-      : profile_(profile), inspection_(profile.program), networks_(*profile.program), by_op_(profile.by_op()) {}
+      : profile_(profile), inspection_(for_places(profile.program)), networks_(*profile.program), by_op_(profile.by_op()) {}
 
   nlohmann::ordered_json summary_json() const {
     nlohmann::ordered_json json{{"program", coverage_name(*profile_.program)},

@@ -1,5 +1,8 @@
 #include "tools/coverage/programs.hpp"
 
+#include <atomic>
+#include <utility>
+
 #include "tools/coverage/coverage_report.hpp"
 
 namespace s7200::tools {
@@ -27,6 +30,11 @@ std::vector<bool> reachable_ops(const ControlFlow& flow) {
       if (attachment.op == op && attachment.routine) enter(*attachment.routine);
   }
   return found;
+}
+
+Inspection for_places(std::shared_ptr<const Program> program) {
+  static const std::atomic<bool> at_once = true;
+  return Inspection(std::move(program), {.stop = StopToken(at_once)});
 }
 
 }  // namespace s7200::tools

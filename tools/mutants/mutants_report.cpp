@@ -5,6 +5,7 @@
 #include "interpreter/base/text/counted.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/coverage/coverage_report.hpp"
+#include "tools/coverage/programs.hpp"
 #include "tools/views/inspection/inspection.hpp"
 
 namespace s7200::tools {
@@ -23,7 +24,7 @@ std::string share_text(const MutantsOfProgram& mutants) {
 }  // namespace
 
 std::string mutants_text(const MutantsOfProgram& mutants) {
-  const Inspection inspection(mutants.program);
+  const Inspection inspection = for_places(mutants.program);
   std::string text = fmt::format("mutants of {}, CPU {}\n  {}\n", stl::printable(coverage_name(*mutants.program)),
                                  mutants.program->model->name, share_text(mutants));
   if (!mutants.survivors.empty()) text += "not noticed:\n";
@@ -34,7 +35,7 @@ std::string mutants_text(const MutantsOfProgram& mutants) {
 }
 
 nlohmann::ordered_json mutants_json(const MutantsOfProgram& mutants) {
-  const Inspection inspection(mutants.program);
+  const Inspection inspection = for_places(mutants.program);
   nlohmann::ordered_json json{{"program", coverage_name(*mutants.program)},
                               {"cpu", mutants.program->model->name},
                               {"scenarios", mutants.scenarios},
