@@ -251,10 +251,11 @@ TEST(Effect, AnInterruptGivesBackTheAccumulatorsThatItUses) {
 }
 
 TEST(Effect, ASubroutineFindsItsParametersAgainAfterACall) {
-  const std::string text = effect_of_vw10(test::changed(
-      test::changed(std::string(kInterrupted), "FOR VW50, 1, 300\nINCW VW52\nNEXT", "CALL Other, 5"), "INTERRUPT_BLOCK",
-      "SUBROUTINE_BLOCK Other:SBR2\nVAR_INPUT\nin1 : INT;\nEND_VAR\nBEGIN\nNETWORK 1\n"
-      "LD SM0.0\nMOVW #in1, VW60\nEND_SUBROUTINE_BLOCK\nINTERRUPT_BLOCK"));
+  const std::string text = effect_of_vw10(
+      test::changed(test::changed(std::string(kInterrupted), "FOR VW50, 1, 300\nINCW VW52\nNEXT", "CALL Other, 5"),
+                    "INTERRUPT_BLOCK INT_0",
+                    "SUBROUTINE_BLOCK Other:SBR2\nVAR_INPUT\nin1 : INT;\nEND_VAR\nBEGIN\nNETWORK 1\n"
+                    "LD SM0.0\nMOVW #in1, VW60\nEND_SUBROUTINE_BLOCK\nINTERRUPT_BLOCK INT_0"));
   EXPECT_TRUE(has(text, " VW20 is 16#005A (90), not 16#00C8 (200), from ")) << text;
   EXPECT_FALSE(has(text, "only because scans take other times: VW20")) << text;
 }
