@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "interpreter/analysis/effects/fast_units.hpp"
 #include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/program/loading/unread.hpp"
 #include "interpreter/stl/printer.hpp"
@@ -175,12 +176,15 @@ class UseCollector {
   void add_pointers() {
     std::map<std::pair<std::optional<std::uint32_t>, std::uint32_t>, PointerEntry> pointers;
     for (const Use& use : others_) {
-      if (!use.access.by_pointer || use.access.operand == kNoOperand) continue;
-      const std::uint32_t at = facts_.program.ops[use.op][use.access.operand].at;
+      const auto pointer = pointer_of(facts_.program, use.op, use.access);
+      if (!pointer) continue;
+      const std::uint32_t at = *pointer;
       const bool local = at >= image::kL && at < image::kConstants;
       const auto routine = local ? std::optional(facts_.flow.nodes[use.op].routine) : std::nullopt;
       PointerEntry& entry = pointers.try_emplace({routine, at}, PointerEntry{at, routine, {}, {}, {}}).first->second;
-      if (!entry.unknown) entry.unknown = facts_.pointers.unknown(use.op, at);
+      const bool is_operand = use.access.operand != kNoOperand;
+      if (!entry.unknown)
+        entry.unknown = is_operand ? facts_.pointers.unknown(use.op, at) : unknown_profile(facts_, use.op);
       if (std::ranges::find(entry.targets, use.access.bits) == entry.targets.end()) entry.targets.push_back(use.access.bits);
       if (entry.ops.empty() || entry.ops.back() != use.op) entry.ops.push_back(use.op);
     }

@@ -143,10 +143,10 @@ class MapBuilder {
     for (std::uint32_t op = 0; op < facts_.effects.size(); ++op)
       for (const MemoryAccess& access : facts_.effects[op]) {
         const Bits named = as_named(access.bits);
-        if (!access.by_pointer || access.operand == kNoOperand || !named.overlaps(area.all)) continue;
+        const auto pointer = pointer_of(facts_.program, op, access);
+        if (!pointer || !named.overlaps(area.all)) continue;
         if (area.routine && area.routine != facts_.flow.nodes[op].routine) continue;
-        reached.push_back({common(in_units(named, area.all.first, unit_of(area.area)), area.all),
-                           {op, facts_.program.ops[op][access.operand].at}});
+        reached.push_back({common(in_units(named, area.all.first, unit_of(area.area)), area.all), {op, *pointer}});
       }
     std::vector<Bits> left;
     for (const Bits& free : area.free) {

@@ -60,11 +60,10 @@ constexpr Rung kOneToTwo   {                          .stack = {.needs = 1, .cha
 constexpr Rung kTwoToOne   {                          .stack = {.needs = 2, .change = -1}};                         // ALD, LPP
 constexpr Rung kReadSecond {                          .stack = {.needs = 2, .change =  0}};                         // LRD
 
-// What is read and written besides operands, at most. The numbers of special memory are those of all ports, counters and outputs.
+// What is read and written besides operands, at most. The numbers of special memory are those of all ports. What the
+// counters, the pulse outputs and the events at inputs touch is in analysis/effects/fast_units.hpp.
 using AllBesides = decltype(Instruction::besides);
 constexpr Besides kStatusByte   {sm::kInterruptStatus, 1, Role::InOut}, kLocalMemory{image::kL, image::kConstants - image::kL, Role::Out};
-constexpr Besides kCounters0To2{sm::byte(36), 30, Role::InOut},        kCounters3To5{sm::byte(136), 30, Role::InOut}, kCounts{image::kHC, 24, Role::InOut};
-constexpr Besides kPulses      {sm::byte(66), 20, Role::InOut},        kProfiles   {sm::byte(166), 20, Role::InOut}, kSegmentTables{image::kV, image::kL - image::kV, Role::In};
 
 /// The SM bytes of each port's receive message service. Its loop goes over the ports themselves: with their number as its end
 /// GCC 12 fails at it where it optimises at link time.
@@ -85,8 +84,6 @@ constexpr AllBesides kReturning    {{kLocalMemory, {image::kAC, 16, Role::Out}, 
 constexpr AllBesides kEnabling     {{kStatusByte}};
 constexpr AllBesides kSending      {{kStatusByte}};
 constexpr AllBesides kReceiving    = besides_of_reception();
-constexpr AllBesides kCounting     {{kCounters0To2, kCounters3To5, kCounts}};
-constexpr AllBesides kPulsing      {{kCounters0To2, kCounters3To5, kCounts, kPulses, kProfiles, kSegmentTables, {image::kOutputs, 1, Role::InOut}}};
 
 constexpr Instruction kBitLogic[] = {
     {.mnemonic = "LD",   .operand = {kBit},        .rung = kPush,                               .effect = Effect::LoadsBit, .body = kContact<Load, false>, .meaning = "push BIT"},
@@ -385,11 +382,11 @@ constexpr Instruction kSequenceControl[] = {
 };
 
 constexpr Instruction kPeripherals[] = {
-    {.mnemonic = "TODR", .operand = {kClockOut},                .rung = kBox, .cpus = kFrom214,                                                                    .effect = Effect::ReadsTimeOfDay,                       .body = read_clock,      .meaning = "read the clock into the 8 bytes at T"},
-    {.mnemonic = "TODW", .operand = {kClockIn},                 .rung = kBox, .cpus = kFrom214,                                                                                                                            .body = write_clock,     .meaning = "set the clock from the 8 bytes at T"},
-    {.mnemonic = "HDEF", .operand = {kHighSpeedCounter, kMode}, .rung = kBox,                   .allowed = kNotInInterrupt, .structure = Structure::DefineCounter,                                   .besides = kCounting, .body = define_counter,  .meaning = "give a high-speed counter its mode, once"},
-    {.mnemonic = "HSC",  .operand = {kHighSpeedCounter},        .rung = kBox,                                                                                                                        .besides = kCounting, .body = program_counter, .meaning = "take over the counter's control byte, values and enable"},
-    {.mnemonic = "PLS",  .operand = {kPulseOutput},             .rung = kBox, .cpus = kFrom214,                                                                                                      .besides = kPulsing,  .body = program_pulses,  .meaning = "start the pulse train or PWM of Q0.X"},
+    {.mnemonic = "TODR", .operand = {kClockOut},                .rung = kBox, .cpus = kFrom214,                                                                    .effect = Effect::ReadsTimeOfDay,  .body = read_clock,      .meaning = "read the clock into the 8 bytes at T"},
+    {.mnemonic = "TODW", .operand = {kClockIn},                 .rung = kBox, .cpus = kFrom214,                                                                                                       .body = write_clock,     .meaning = "set the clock from the 8 bytes at T"},
+    {.mnemonic = "HDEF", .operand = {kHighSpeedCounter, kMode}, .rung = kBox,                   .allowed = kNotInInterrupt, .structure = Structure::DefineCounter,                                    .body = define_counter,  .meaning = "give a high-speed counter its mode, once"},
+    {.mnemonic = "HSC",  .operand = {kHighSpeedCounter},        .rung = kBox,                                                                                      .effect = Effect::ProgramsCounter, .body = program_counter, .meaning = "take over the counter's control byte, values and enable"},
+    {.mnemonic = "PLS",  .operand = {kPulseOutput},             .rung = kBox, .cpus = kFrom214,                                                                    .effect = Effect::ProgramsPulses,  .body = program_pulses,  .meaning = "start the pulse train or PWM of Q0.X"},
 };
 
 // Known by name, so that a program that uses them is told so.

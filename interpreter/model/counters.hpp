@@ -44,4 +44,22 @@ using CounterModes = std::uint16_t;
 inline constexpr CounterModes kMode0 = 0x001, kAllModes = 0xFFF, kMode12 = 0x1000;
 inline constexpr CounterModes kModesWithoutStart = 0x6DB;  ///< 0 1 3 4 6 7 9 10
 
+constexpr bool has_reset(std::uint8_t mode) { return mode % 3 != 0; }
+constexpr bool has_start(std::uint8_t mode) { return mode % 3 == 2; }
+
+/// The clocks of a mode do this.
+enum class Clocking : std::uint8_t { InternalDirection, DirectionInput, UpAndDown, Quadrature, PulseOutput };
+constexpr Clocking clocking(std::uint8_t mode) { return static_cast<Clocking>(mode / 3); }
+
+/// The input points that a counter uses in a mode, as a set of bits: I0.0 is bit 0, I1.0 bit 8.
+constexpr std::uint32_t points_of(const CounterInfo& counter, std::uint8_t mode) {
+  const auto point = [](std::uint8_t number) { return number == kNoPoint ? 0u : 1u << number; };
+  if (clocking(mode) == Clocking::PulseOutput) return 0;
+  std::uint32_t points = point(counter.clock);
+  if (clocking(mode) != Clocking::InternalDirection) points |= point(counter.direction);
+  if (has_reset(mode)) points |= point(counter.reset);
+  if (has_start(mode)) points |= point(counter.start);
+  return points;
+}
+
 }  // namespace s7200

@@ -131,6 +131,8 @@ enum class Effect : std::uint8_t {
   Transmits,
   Receives,
   SetsStation,        ///< SPA
+  ProgramsCounter,    ///< HSC
+  ProgramsPulses,     ///< PLS
   CopiesByte,         ///< MOVB
   ReadsEno,           ///< AENO
   ReadsTimeOfDay,     ///< TODR
@@ -223,7 +225,7 @@ struct Instruction {
   Structure structure = Structure::None;
   Hidden hidden = Hidden::None;
   Effect effect = Effect::None;
-  std::array<Besides, 7> besides{};
+  std::array<Besides, 5> besides{};
   Bodies body{};
   std::string_view meaning{};       ///< one line
   std::string_view not_modelled{};  ///< of one without a body: why, and what to write instead

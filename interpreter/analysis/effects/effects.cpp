@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <optional>
 
+#include "interpreter/analysis/effects/fast_units.hpp"
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/model/ports.hpp"
 #include "interpreter/program/loading/unread.hpp"
@@ -42,6 +44,7 @@ class Collector {
     for (const Besides& each : op_.instruction->besides)
       if (each.bytes != 0 && !is_of_another_port(each))
         add({{bit_at(each.at), std::uint64_t{each.bytes} * 8}, each.role, Certainty::May});
+    std::ranges::copy(accesses_of_fast_units(program_, op_, known_.image), std::back_inserter(all_));
     if (op_.instruction->structure == Structure::Call) add_parameters(op_);
     if (returns_from_subroutine()) add_results();
     return std::move(all_);
@@ -254,6 +257,12 @@ std::vector<MemoryAccess> effects_of(const Program& program, std::uint32_t op, c
 
 std::vector<MemoryAccess> effects_now(const Program& program, std::uint32_t op, std::span<const std::uint8_t> image) {
   return Collector(program, program.ops[op], {image, nullptr}).all();
+}
+
+std::optional<std::uint32_t> pointer_of(const Program& program, std::uint32_t op, const MemoryAccess& access) {
+  if (!access.by_pointer) return {};
+  if (access.operand != kNoOperand) return program.ops[op][access.operand].at;
+  return profile_pointer_of(program, program.ops[op]);
 }
 
 std::uint64_t reach_of(const Program& program, const Op& op, std::size_t operand, std::uint32_t place) {

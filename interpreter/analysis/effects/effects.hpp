@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,10 @@ std::vector<MemoryAccess> effects_of(const Program& program, std::uint32_t op, c
 /// The same for an execution that finds the memory `image`: the counts and pointers in it are known. A pointer that points
 /// nowhere leads to no access.
 std::vector<MemoryAccess> effects_now(const Program& program, std::uint32_t op, std::span<const std::uint8_t> image);
+
+/// The place of the pointer that leads op number `op` to an access, or of the word that says where in V its profile is; nothing
+/// if none does, and for the parameters of a CALL.
+std::optional<std::uint32_t> pointer_of(const Program& program, std::uint32_t op, const MemoryAccess& access);
 
 /// How many bits an operand reaches at most from a place in the image.
 std::uint64_t reach_of(const Program& program, const Op& op, std::size_t operand, std::uint32_t place);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "interpreter/analysis/effects/fast_units.hpp"
 #include "interpreter/analysis/effects/value_boxes.hpp"
 #include "interpreter/model/ports.hpp"
 #include "interpreter/model/special_memory.hpp"
@@ -50,6 +51,7 @@ Facts facts_of(const Program& program, const Waiter& waiter) {
   Facts facts{program, std::move(flow), std::move(pointers), {}, {}};
   for (std::uint32_t op = 0; op < program.ops.size(); ++op) facts.effects.push_back(effects_of(program, op, facts.pointers));
   shorten_receptions(facts);
+  shorten_profiles(facts);
   facts.networks = network_numbers(program, facts.flow);
   return facts;
 }

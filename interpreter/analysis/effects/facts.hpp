@@ -13,7 +13,7 @@ struct Facts {
   const Program& program;
   ControlFlow flow;
   Pointers pointers;
-  std::vector<std::vector<MemoryAccess>> effects;  ///< by op: effects_of(), and of RCV no more than the program allows it
+  std::vector<std::vector<MemoryAccess>> effects;  ///< by op: effects_of(), and of RCV and PLS no more than the program allows them
   /// By op: the number of its network. That of its NETWORK line; in a routine without numbered lines, counted from 1; 0 in
   /// front of the first of them.
   std::vector<std::uint32_t> networks;

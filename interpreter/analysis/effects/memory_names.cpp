@@ -64,6 +64,11 @@ std::string memory_text(const Bits& bits) {
                      address_text(area.area, Width::Byte, number + bytes - 1, 0));
 }
 
+std::string pointer_text(std::uint32_t at) {
+  if (area_at(at).area == Area::SM) return memory_text({at * 8u, 16});
+  return "*" + memory_text(as_named({at * 8u, 32}));
+}
+
 Bits bits_of_area(const CpuModel& model, Area area) {
   return {first_bit_of(info(area).base), std::uint64_t{model.size_of(area)} * info(area).step() * 8};
 }

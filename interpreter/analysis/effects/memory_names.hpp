@@ -16,6 +16,9 @@ Bits as_named(const Bits& bits);
 /// `V100.3`, `VB100`, `VW100`, `T33`, `AC0`; of several things the first and the last: `VB100 to VB119`, `M0.0 to M0.5`.
 std::string memory_text(const Bits& bits);
 
+/// `*VD50`: what the pointer in memory at `at` leads to; `SMW168`, which is a number of V and no pointer.
+std::string pointer_text(std::uint32_t at);
+
 /// All of an area that a CPU has.
 Bits bits_of_area(const CpuModel& model, Area area);
 

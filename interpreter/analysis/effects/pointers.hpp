@@ -55,7 +55,8 @@ class Pointers {
       DataBlock,  ///< the data block does, or a programming device
       Elsewhere,  ///< it is not in V, M or L memory or an accumulator
       Written,    ///< `op` puts into it what no address is known of
-      Counted     ///< `op` counts it, and nothing that is known ends that
+      Counted,    ///< `op` counts it, and nothing that is known ends that
+      Length      ///< how far goes what it leads to is known only in a run
     };
     Reason reason = Reason::NotSet;
     std::uint32_t op = 0;

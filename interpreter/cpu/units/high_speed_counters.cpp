@@ -9,28 +9,10 @@ using namespace sm::counter;
 
 constexpr std::uint32_t kInputBytes = 2;  ///< the input bytes that counters are wired to
 
-bool has_reset(std::uint8_t mode) { return mode % 3 != 0; }
-bool has_start(std::uint8_t mode) { return mode % 3 == 2; }
-
-/// The clocks of a mode do this.
-enum class Clocking { InternalDirection, DirectionInput, UpAndDown, Quadrature, PulseOutput };
-Clocking clocking(std::uint8_t mode) { return static_cast<Clocking>(mode / 3); }
-
-/// The input points that a counter uses in a mode, as a set of bits.
-std::uint32_t points_of(std::uint8_t number, std::uint8_t mode) {
-  if (clocking(mode) == Clocking::PulseOutput) return 0;
-  const CounterInfo& info = kCounters[number];
-  std::uint32_t points = 1u << info.clock;
-  if (clocking(mode) != Clocking::InternalDirection) points |= 1u << info.direction;
-  if (has_reset(mode)) points |= 1u << info.reset;
-  if (has_start(mode)) points |= 1u << info.start;
-  return points;
-}
-
 std::uint32_t points_in_use(const State& s) {
   std::uint32_t points = 0;
   for (std::uint8_t number = 0; number < s.counter.size(); ++number)
-    if (s.counter[number].defined) points |= points_of(number, s.counter[number].mode);
+    if (s.counter[number].defined) points |= points_of(kCounters[number], s.counter[number].mode);
   return points;
 }
 
@@ -126,7 +108,7 @@ void define(Core& core, std::uint8_t number, std::uint8_t mode) {
   State& s = core.s;
   HighSpeedCounter& counter = s.counter[number];
   if (counter.defined) return core.run_error(RunError::CounterDefinedTwice);
-  if (points_of(number, mode) & (points_in_use(s) | points_with_interrupts(s))) return core.run_error(RunError::InputTaken);
+  if (points_of(kCounters[number], mode) & (points_in_use(s) | points_with_interrupts(s))) return core.run_error(RunError::InputTaken);
   const std::uint8_t control = s.image[kCounters[number].status + kControl];
   counter.defined = true;
   counter.mode = mode;

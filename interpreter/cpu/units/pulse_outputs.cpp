@@ -20,7 +20,6 @@ Time high_time(const PulseTrain& train) {
 }
 
 constexpr std::int64_t kShortestCycle = 2, kLongestCycle = 65535;  ///< in units
-constexpr std::uint32_t kSegmentSize = 8;
 
 /// A segment of a profile: its first cycle time (word), by how much each cycle is longer (word, signed), and the number of
 /// pulses (double word). False after the last one.
@@ -28,7 +27,7 @@ bool load_segment(Core& core, std::uint8_t output) {
   PulseOutput& pulses = core.s.pulse[output];
   PulseTrain& train = pulses.train;
   if (pulses.segment == train.segments) return false;
-  const std::uint8_t* const segment = &core.s.image[train.table + 1 + kSegmentSize * pulses.segment++];
+  const std::uint8_t* const segment = &core.s.image[train.table + 1 + kSegmentBytes * pulses.segment++];
   train.cycle = std::max<std::int64_t>(load16(segment), kShortestCycle) * train.unit;
   pulses.delta = static_cast<std::int16_t>(load16(segment + 2)) * train.unit;
   pulses.left = std::max(load32(segment + 4), 1u);
@@ -69,7 +68,7 @@ void end(Core& core, std::uint8_t output) {
 bool take_profile(Core& core, std::uint8_t output, PulseTrain& train) {
   const std::uint32_t offset = load16(&core.s.image[kProfileTable[output]]), table = image::kV + offset;
   const auto fits = [&](std::uint32_t bytes) { return offset + bytes <= core.model().size_of(Area::V); };
-  if (!fits(1) || !fits(1 + kSegmentSize * core.s.image[table])) {
+  if (!fits(1) || !fits(1 + kSegmentBytes * core.s.image[table])) {
     core.run_error(RunError::OperandRange);
     return false;
   }

@@ -3,6 +3,8 @@
 
 #include <set>
 
+#include "interpreter/program/checking/checker.hpp"
+#include "interpreter/program/load.hpp"
 #include "interpreter/program/operands/operands.hpp"
 #include "tests/support/plc.hpp"
 
@@ -12,7 +14,8 @@ namespace {
 const CpuModel& model() { return *find_cpu("224"); }
 
 std::string place_text(std::uint64_t bit) {
-  const auto place = static_cast<std::uint32_t>(bit / 8);
+  auto place = static_cast<std::uint32_t>(bit / 8);
+  if (place >= image::kInputs && place < image::kOutputs) place -= image::kInputs - image::kI;  // the points themselves
   const AreaInfo& area = area_at(place);
   return fmt::format("{}{}.{}", area.name, place - area.base, bit % 8);
 }
@@ -115,6 +118,46 @@ TEST(Effects, WhatASubroutineHandsBackIsWrittenByItsCallAndByItsReturn) {
   for (std::uint32_t op = 0; op < program->ops.size(); ++op)
     if (accesses(*program, op, kNoOperand).find("writes V10.0+16 may") != std::string::npos) ++writers;
   EXPECT_EQ(writers, 2);
+}
+
+TEST(Effects, ACounterHasItsOwnSpecialMemoryAndInputs) {
+  EXPECT_EQ(accesses("LD SM0.1\nHDEF 1, 11\n", kNoOperand),
+            "writes SM4.3+1 may; reads SM47.0+8 must; reads I0.6+1 must; reads I0.7+1 must; reads I1.0+1 must; reads I1.1+1 "
+            "must");
+  EXPECT_EQ(accesses("LD SM0.1\nHDEF 4, 0\nHSC 4\n", kNoOperand),
+            "writes SM4.3+1 may; changes SM146.0+8 may; reads SM147.0+72 may; changes HC16.0+32 may; reads I0.3+1 must");
+}
+
+TEST(Effects, OfACounterThatDoesNotExistNothingIsKnown) {
+  const auto decoded = decode_program(read_text("LD SM0.1\nHDEF 9, 40\nHDEF 3, 11\nHSC 3\nPLS 7\nMEND\n", "x"), model(),
+                                      default_times(model()));
+  for (std::uint32_t op = 0; op < decoded.known->ops.size(); ++op)
+    EXPECT_LT(effects_of(*decoded.known, op, Pointers(*decoded.known)).size(), 20U);
+}
+
+TEST(Effects, APulseOutputChangesWhatCountsItsPulses) {
+  const CpuModel& counting = *find_cpu("224");
+  const auto program = program_of("LD SM0.1\nHDEF 3, 12\nPLS 0\nPLS 1\nMEND\n", counting);
+  const std::string first = accesses(*program, 2, kNoOperand), second = accesses(*program, 3, kNoOperand);
+  EXPECT_EQ(first.find("HC"), std::string::npos) << first;
+  EXPECT_NE(second.find("changes HC12.0+32 may"), std::string::npos) << second;
+}
+
+TEST(Effects, AtAMomentAProfileIsWhereItsWordSays) {
+  const auto program = program_of("LD SM0.1\nPLS 0\nMEND\n", model());
+  std::array<std::uint8_t, image::kSize> memory{};
+  const auto table = [&] {
+    std::vector<Bits> all;
+    for (const MemoryAccess& access : effects_now(*program, 1, memory))
+      if (access.bits.first >= image::kV * 8u) all.push_back(access.bits);
+    return all;
+  };
+  memory[sm::byte(67)] = 0x80;
+  store16(&memory[sm::byte(168)], 40);
+  memory[image::kV + 40] = 2;
+  EXPECT_TRUE(table().empty());
+  memory[sm::byte(67)] = 0xA0;
+  EXPECT_EQ(table(), (std::vector<Bits>{{(image::kV + 40) * 8u, 17 * 8}}));
 }
 
 TEST(Effects, AtAMomentCountsAndPointersAreKnown) {

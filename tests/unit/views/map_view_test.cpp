@@ -67,6 +67,40 @@ TEST(MapView, AMessageIsAsLongAsItsConstantsAllow) {
   EXPECT_EQ(used(""), "VB500 to VB755");
 }
 
+std::vector<std::string> used(std::string_view stl, std::string_view name, const CpuModel& model) {
+  std::vector<std::string> all;
+  const ordered_json of = area(stl, name, model);
+  for (const ordered_json& each : of["used"]) all.push_back(each["memory"]);
+  return all;
+}
+
+TEST(MapView, AnInputOfAnEventOrOfACounterIsUsed) {
+  constexpr std::string_view kProgram =
+      "LD SM0.1\nATCH 0, 5\nHDEF 1, 4\nHSC 1\nENI\nMEND\nINT 0\nLD SM0.0\nINCW VW0\nRETI\n";
+  EXPECT_EQ(used(kProgram, "I", *find_cpu("224")), (std::vector<std::string>{"I0.2", "I0.6 to I1.0"}));
+  EXPECT_EQ(used(kProgram, "HC", *find_cpu("224")), (std::vector<std::string>{"HC1"}));
+}
+
+TEST(MapView, APulseOutputHasItsOwnSpecialMemory) {
+  constexpr std::string_view kWidth = "LD SM0.1\nMOVB 16#CB, SMB77\nMOVW 9, SMW78\nPLS 1\nMOVW VW10, VW20\nMEND\n";
+  for (const char* cpu : {"214", "224"}) {
+    EXPECT_EQ(used(kWidth, "V", *find_cpu(cpu)), (std::vector<std::string>{"VB10 to VB11", "VB20 to VB21"})) << cpu;
+    EXPECT_EQ(used(kWidth, "Q", *find_cpu(cpu)), (std::vector<std::string>{"Q0.1"})) << cpu;
+  }
+  for (const char* cpu : {"214", "224"})
+    EXPECT_EQ(used(kWidth, "SM", *find_cpu(cpu)), (std::vector<std::string>{"SMB0", "SMB76 to SMB85"})) << cpu;
+}
+
+TEST(MapView, AProfileIsAsLongAsItsConstantsAllow) {
+  constexpr std::string_view kProfile = "LD SM0.1\nMOVB 16#A0, SMB67\nMOVW 500, SMW168\n";
+  const CpuModel& model = *find_cpu("224");
+  EXPECT_EQ(used(std::string(kProfile) + "MOVB 3, VB500\nPLS 0\nMEND\n", "V", model),
+            (std::vector<std::string>{"VB500 to VB524"}));
+  const ordered_json open = area(std::string(kProfile) + "MOVB VB9, VB500\nPLS 0\nMEND\n", "V", model);
+  EXPECT_EQ(open["perhaps"][0]["memory"], ordered_json::parse(R"(["VB501 to VB2540"])"));
+  EXPECT_EQ(open["perhaps"][0]["through"][0]["pointer"], "SMW168");
+}
+
 TEST(MapView, PointersAreNamedWhereTheyMayLead) {
   const ordered_json v = area("LD SM0.0\nMOVD &VB100, AC1\nMOVB 1, *AC1\nMOVB 2, VB0\nMEND\n", "V");
   EXPECT_EQ(v["pointers"], ordered_json::parse(R"(["*AC1"])"));

@@ -26,7 +26,30 @@ TEST(XrefView, ShowsSymbolsBesideAddressesAndWhoWritesSpecialMemory) {
 TEST(XrefView, SaysWhyAPointerMayLeadAnywhere) {
   const std::string text = xref_text(inspected("LD SM0.0\nMOVB 1, *AC1\nMOVB 2, VB7\nMEND\n"));
   EXPECT_NE(text.find("  may reach  *AC1 (see Pointers)\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("*AC1: anywhere in I, Q, M, SM, S, AI, AQ, T, C, V; no instruction sets it\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("*AC1: anywhere in I, Q, M, SM, S, AI, AQ, T, C, V; no instruction sets it\n"), std::string::npos)
+      << text;
+}
+
+TEST(XrefView, SaysWhyAProfileMayBeAnywhere) {
+  constexpr std::string_view kEnd = "PLS 0\nMOVB 1, VB7\nMEND\n";
+  const auto text = [&](const std::string& program, std::vector<std::string> asked = {}, const char* cpu = "224") {
+    return xref_text(inspected(program + std::string(kEnd), std::move(asked), *find_cpu(cpu)));
+  };
+  const std::string unset = text("LD SM0.0\nMOVB 16#A0, SMB67\n");
+  EXPECT_NE(unset.find("\nSMW168: anywhere in V; no instruction sets it\n"), std::string::npos) << unset;
+  const std::string computed = text("LD SM0.0\nMOVW VW2, SMW168\n");
+  EXPECT_NE(computed.find("MOVW VW2, SMW168 (line 2) puts into it what is known only in a run"), std::string::npos)
+      << computed;
+  const std::string length = text("LD SM0.0\nMOVW 8, SMW168\n");
+  EXPECT_NE(length.find("SMW168: VB8 to VB2048; how many segments"), std::string::npos) << length;
+  EXPECT_EQ(text("LD SM0.0\nMOVB 16#A0, SMB67\n", {"VW3000"}, "214").find("PLS"), std::string::npos);
+}
+
+TEST(XrefView, AnEventAtAnInputReadsIt) {
+  const std::string text =
+      xref_text(inspected("LD SM0.1\nATCH 0, 3\nENI\nMEND\nINT 0\nLD SM0.0\nINCW VW0\nRETI\n", {"I0.1"}));
+  EXPECT_NE(text.find("  reads      I0.1             MAIN    0   test.stl:2              ATCH 0, 3\n"), std::string::npos)
+      << text;
 }
 
 TEST(XrefView, KeepsToWhatIsAskedFor) {

@@ -36,11 +36,9 @@ std::vector<std::string> routine_names(const Inspection& inspection, const Memor
   return names;
 }
 
-std::string pointer_name(std::uint32_t at) { return "*" + memory_text(as_named({at * 8u, 32})); }
-
 std::vector<std::string> pointer_names(const CrossReference& reference, const MemoryMap::AreaUse& area) {
   std::vector<std::string> names;
-  for (const std::size_t i : area.pointers) names.push_back(pointer_name(reference.pointers[i].at));
+  for (const std::size_t i : area.pointers) names.push_back(pointer_text(reference.pointers[i].at));
   return names;
 }
 
@@ -87,7 +85,7 @@ std::string through_text(const Inspection& inspection, const MemoryMap::Perhaps&
   std::vector<std::string> names;
   for (const MemoryMap::Through& through : perhaps.through)
     if (names.size() < kShown)
-      names.push_back(fmt::format("{} in {}", pointer_name(through.at), line_text(inspection, through.op)));
+      names.push_back(fmt::format("{} in {}", pointer_text(through.at), line_text(inspection, through.op)));
   if (perhaps.through.size() > kShown) names.push_back(fmt::format("{} more", perhaps.through.size() - kShown));
   return stl::joined(names, map_name, " and ");
 }
@@ -257,7 +255,7 @@ ordered_json area_json(const Inspection& inspection, const CrossReference& refer
   for (const MemoryMap::Perhaps& perhaps : area.perhaps) {
     ordered_json through = ordered_json::array();
     for (const MemoryMap::Through& each : perhaps.through)
-      through.push_back({{"pointer", pointer_name(each.at)}, {"place", place_json(inspection, each.op)}});
+      through.push_back({{"pointer", pointer_text(each.at)}, {"place", place_json(inspection, each.op)}});
     json["perhaps"].push_back({{"memory", texts(perhaps.bits)}, {"through", std::move(through)}});
   }
   json["free"] = texts(area.free);

@@ -22,12 +22,11 @@ using nlohmann::ordered_json;
 
 std::string as_it_is(const std::string& text) { return text; }
 
-/// The pointer that an access goes through: `*AC1`; empty for a direct one.
+/// The pointer that an access goes through: `*AC1`, of a profile `SMW168`; empty for a direct one.
 std::string through(const Inspection& inspection, const Use& use) {
   if (!use.access.by_pointer) return {};
-  const Op& op = inspection.program->ops[use.op];
-  if (use.access.operand == kNoOperand) return "a pointer";
-  return "*" + memory_text(as_named({op[use.access.operand].at * 8u, 32}));
+  const auto pointer = pointer_of(*inspection.program, use.op, use.access);
+  return pointer ? pointer_text(*pointer) : "a pointer";
 }
 
 std::string_view verb_of(const MemoryAccess& access) {
@@ -54,8 +53,6 @@ std::string_view name_of(Usage usage) {
   return "";
 }
 
-std::string pointer_text(const PointerEntry& pointer) { return "*" + memory_text(as_named({pointer.at * 8u, 32})); }
-
 /// What pointers may lead to: `anywhere in Q, V; VB100 to VB355`.
 std::string targets_text(const Inspection& inspection, const std::vector<Bits>& targets) {
   std::vector<std::string> areas, places;
@@ -79,6 +76,8 @@ std::string reason_text(const Inspection& inspection, const Pointers::Unknown& u
     case Reason::Counted:
       return fmt::format("{} ({}) counts it, and no comparison ends that", instruction_text(inspection, unknown.op),
                          place_in_words(inspection, unknown.op));
+    case Reason::Length:
+      return "how many segments the profile there has is known only in a run";
     case Reason::Written:
       break;
   }
@@ -157,7 +156,7 @@ std::string pointers_text(const Inspection& inspection, const Wanted& wanted, co
     const bool meant = std::ranges::any_of(pointer.ops, [&](std::uint32_t op) { return wanted.op(op); }) &&
                        std::ranges::any_of(pointer.targets, [&](const Bits& bits) { return wanted.memory(bits); });
     if (!meant) continue;
-    std::string head = fmt::format("{}: {}", pointer_text(pointer), targets_text(inspection, pointer.targets));
+    std::string head = fmt::format("{}: {}", pointer_text(pointer.at), targets_text(inspection, pointer.targets));
     if (pointer.unknown) head += "; " + reason_text(inspection, *pointer.unknown);
     text += wrapped_at(head, 2) + "\n";
     for (const std::uint32_t op : pointer.ops)
@@ -257,7 +256,7 @@ ordered_json entry_json(const Inspection& inspection, const Wanted& wanted, cons
 }
 
 ordered_json pointer_json(const Inspection& inspection, const PointerEntry& pointer) {
-  ordered_json json{{"pointer", pointer_text(pointer)}, {"targets", ordered_json::array()}};
+  ordered_json json{{"pointer", pointer_text(pointer.at)}, {"targets", ordered_json::array()}};
   for (const Bits& bits : pointer.targets) json["targets"].push_back(targets_text(inspection, {bits}));
   json["why"] = pointer.unknown ? reason_text(inspection, *pointer.unknown) : "";
   json["uses"] = ordered_json::array();
