@@ -257,6 +257,10 @@ TEST(LadderView, RungsOfEveryShapeReadBack) {
         std::string("LD I0.0\nLPS\nMOVB 1, VB0\nAENO\nLPS\nA I0.1\n= Q0.0\nLPP\n= Q0.1\nLPP\nA I0.2\nINCB VB1\n"),
         std::string("LDS= \"a b\", VB0\nSCPY \"x  y\", VB300\nMUL VW0, *AC1\nLDB= VB0, ' '\nO I0.0\nXMT VB0, 0\n"),
         std::string("LD I0.0\nED\nLD I0.1\nEU\nOLD\nLPS\nNOT\n= Q0.0\nLPP\nA I0.2\nNOT\nR T37, 2\n"),
+        std::string("LD T41\nLDW>= C5, 20\nO S0.0\nCTU C5, 24\n"),
+        std::string("LD T41\nO M0.0\nLDW>= C5, 20\nO S0.0\nO S0.1\nO S0.2\nCTU C5, VW1000\n"),
+        std::string("LD I0.0\nLD I0.1\nA I0.2\nA I0.3\nLD M0.0\nO M0.1\nCTUD C5, VW1000\n"),
+        std::string("LD I0.0\nLD I0.1\nO I0.2\nCTU C0, *LD10\nLD I0.4\nO I0.5\nTON T37, VW1000\n= Q0.0\n"),
         std::string("LD I0.0\n= Q0.0\nLD I0.1\nLD I0.2\nCTU C0, 5\nLD I0.3\nNOP 4\n= Q0.2\nMEND\n")}) {
     const stl::Source source = s7200::read_text("NETWORK 1\n" + rungs, "rungs.stl").source;
     const auto networks = drawn_networks(source);

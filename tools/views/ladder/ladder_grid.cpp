@@ -435,7 +435,10 @@ class Layout {
       width = std::max(width, input.width);
     }
     Block box = box_block(*end.output, rows, point, 0);
-    const int shift = std::max(0, width - x - box.shapes.front().column);
+    const GridShape& shape = box.shapes.front();
+    // Wires that lead down from the last input pass what stands at the left of the pins below it.
+    const int beside = inputs.back().below > 0 ? inputs.back().width + widest(shape.pins, false, &GridPin::operand) : 0;
+    const int shift = std::max(0, std::max(width, beside) - x - shape.column);
     Block block;
     block.lengthen(shift + 1, point);
     block.append(std::move(box));
