@@ -120,8 +120,6 @@ class LocalMemory {
   std::uint8_t bits_ = 0;  // of the byte before `next_` that are taken; 0: all, or it is not a byte of bits
 };
 
-constexpr std::uint32_t kLocalBytes = 64;
-
 // --- the reader ---
 
 /// Whether a line is a statement, an instruction or a mnemonic and operands one of which is a whole address: `LD I0.0`, but
@@ -505,17 +503,10 @@ class BlockReader {
   }
 
   void place_variables() {
-    auto& variables = block().variables;
-    std::ranges::stable_sort(variables, {}, &Variable::kind);
-    LocalMemory memory;
-    bool reported = false;
-    for (Variable& variable : variables) {
-      variable.address = memory.place(word(variable.type).size);
-      if (memory.used() <= kLocalBytes || std::exchange(reported, true)) continue;
-      error(variable.position,
-            fmt::format("{} does not fit: the local memory of a block has {} bytes", shortened(variable.name), kLocalBytes),
+    if (const Variable* const last = stl::place_variables(block().variables))
+      error(last->position,
+            fmt::format("{} does not fit: the local memory of a block has {} bytes", shortened(last->name), kLocalBytes),
             "use V memory for some of the variables");
-    }
   }
 
   // --- the listing ---
@@ -636,6 +627,17 @@ bool is_block_export(std::string_view text) {
     if (may_open_block && opens_block(keyword_of(code_of_line(line)))) return true;
   }
   return false;
+}
+
+const Variable* place_variables(std::vector<Variable>& variables) {
+  std::ranges::stable_sort(variables, {}, &Variable::kind);
+  LocalMemory memory;
+  const Variable* too_many = nullptr;
+  for (Variable& variable : variables) {
+    variable.address = memory.place(word(variable.type).size);
+    if (memory.used() > kLocalBytes && !too_many) too_many = &variable;
+  }
+  return too_many;
 }
 
 ParseResult read_blocks(std::string_view text, std::string name, const IsInstruction& is_instruction) {

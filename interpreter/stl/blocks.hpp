@@ -6,8 +6,10 @@
 // routine. What follows the reader knows no blocks, except for the names in their heads and their local variables.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "interpreter/stl/is_instruction.hpp"
 #include "interpreter/stl/parser.hpp"
@@ -25,6 +27,12 @@ bool is_block_export(std::string_view text);
 ///   [Blocks.VariablesAreInLocalMemoryInTheOrderOfTheirKinds]
 /// - A STRING takes four bytes: it is a pointer to the string. [Blocks.AStringTakesFourBytesOfLocalMemory]
 ParseResult read_blocks(std::string_view text, std::string name, const IsInstruction& is_instruction = {});
+
+inline constexpr std::uint32_t kLocalBytes = 64;
+
+/// Gives the variables of a block their addresses in its local memory, in the order of their kinds. Returns the first that
+/// does not fit there; null if all do.
+const Variable* place_variables(std::vector<Variable>& variables);
 
 /// Whether it is a document with the listing of a CPU 22x as Micro/WIN shows it: the Chinese heading of the main program,
 /// and below it the first network.

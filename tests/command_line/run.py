@@ -2792,6 +2792,14 @@ class Inspect(Case):
             elements = [re.sub(r"(?m)^(    [^ │┌└].*|.*, network .*|//.*)\n|^\d+", "", text) for text in (drawn.read_text(encoding="utf-8"), again)]
             self.assertEqual(*elements)
 
+    def test_a_drawn_program_with_parameters_reads_back_with_them(self):
+        path = EXPORTS / "parameters.awl"
+        for source in (path, self.program(self.ends(FINE, "inspect", path, "ladder").stdout, "drawn.txt")):
+            back = self.program(self.ends(FINE, "import", *(["--from", "ladder"] if source != path else []), source).stdout, "back.awl")
+            self.assertIn("VAR_INPUT\n", back.read_text(encoding="utf-8"))
+            self.ends(FINE, "check", back, "--cpu", "224")
+            self.assertRegex(self.ends(FINE, "compare", path, back, "--cpu", "224").stdout, "The programs are the same|The CPU gets the same")
+
     def test_the_picture_of_the_docs_is_what_is_drawn(self):
         written = self.folder / "ladder.svg"
         for _ in range(2):  # what the option wrote it may replace

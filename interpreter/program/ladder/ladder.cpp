@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <map>
 #include <set>
 
@@ -12,6 +13,7 @@
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/program/ladder/ladder_boxes.hpp"
 #include "interpreter/program/operands/operand_memory.hpp"
+#include "interpreter/stl/blocks.hpp"
 #include "interpreter/stl/parser.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/stl/text/encoding.hpp"
@@ -405,6 +407,34 @@ void add_listing(const LadderNetwork& network, stl::ParseResult& result) {
 
 }  // namespace
 
+namespace {
+
+bool begins_routine(const LadderNetwork& network) {
+  return network.head && (network.head->symbol == "SBR" || network.head->symbol == "INT");
+}
+
+void end_block(std::uint32_t line, stl::ParseResult& result) {
+  auto& blocks = result.source.blocks;
+  if (!blocks.empty() && blocks.back().last_line == 0) blocks.back().last_line = line;
+}
+
+/// The block of a routine whose head declares variables: what follows until the next head is in it.
+void add_block(const LadderNetwork& head, stl::ParseResult& result) {
+  const std::string& number = head.head->operands.front().text;
+  stl::Block block{.kind = head.head->symbol == "INT" ? stl::Block::Kind::Interrupt : stl::Block::Kind::Subroutine,
+                   .position = head.position,
+                   .variables = head.variables};
+  if (std::from_chars(number.data(), number.data() + number.size(), block.number).ec != std::errc{}) return;
+  if (const stl::Variable* const last = stl::place_variables(block.variables))
+    result.diagnostics.push_back({stl::Severity::Error, last->position,
+                                  fmt::format("{} does not fit: the local memory of a block has {} bytes",
+                                              stl::shortened(last->name), stl::kLocalBytes),
+                                  "use V memory for some of the variables"});
+  result.source.blocks.push_back(std::move(block));
+}
+
+}  // namespace
+
 stl::ParseResult ladder_to_stl(const stl::LadderPage& page) {
   stl::ParseResult result;
   static_cast<stl::SourceLines&>(result.source) = page.source;
@@ -415,10 +445,13 @@ stl::ParseResult ladder_to_stl(const stl::LadderPage& page) {
       result.source.lines.emplace_back(stl::CommentLine{comment, network.position.line});
     result.source.lines.emplace_back(stl::NetworkHead{network.number, network.position, {}});
     if (!network.readable) continue;
+    if (begins_routine(network)) end_block(network.position.line - 1, result);
+    if (begins_routine(network) && !network.variables.empty()) add_block(network, result);
     add_listing(network, result);
     for (stl::Statement& statement : NetworkWriter(network, operands, result.diagnostics).write())
       result.source.lines.emplace_back(std::move(statement));
   }
+  end_block(static_cast<std::uint32_t>(page.source.text.size()), result);
   stl::sort(result.diagnostics);
   return result;
 }

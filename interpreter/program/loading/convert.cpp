@@ -321,6 +321,14 @@ std::optional<std::string> convert(stl::ParseResult& parsed, Notation notation) 
   return stl::to_text(source);
 }
 
+std::string imported_text(stl::Source source) {
+  const auto is_parameter = [](const stl::Variable& variable) { return variable.kind != stl::Variable::Kind::Temporary; };
+  const auto hands_over = [&](const stl::Block& block) { return std::ranges::any_of(block.variables, is_parameter); };
+  if (std::ranges::none_of(source.blocks, hands_over)) return stl::to_text(source);
+  add_missing_ends(source);
+  return blocks_text(source);
+}
+
 std::string symbol_table_text(const stl::Source& source) {
   std::vector<stl::Symbol> symbols = source.symbols;
   std::ranges::copy(stl::names_beside_addresses(source), std::back_inserter(symbols));

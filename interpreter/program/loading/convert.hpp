@@ -32,6 +32,10 @@ std::string notation_names();
 /// [Convert.MicroDosWritesConstantsWithKButNotLabelsAndRoutines, Convert.GermanLettersAndU]
 std::optional<std::string> convert(stl::ParseResult& parsed, Notation notation);
 
+/// The source as STL, with its symbols beside the addresses: as one listing, or if its blocks hand over parameters, which a
+/// listing cannot say, as the blocks of an export.
+std::string imported_text(stl::Source source);
+
 /// The symbols of a source that convert() has read, also those with their address in the text, as a table that Micro/WIN takes:
 /// name, address and comment, with tabs between. Empty without any.
 std::string symbol_table_text(const stl::Source& source);

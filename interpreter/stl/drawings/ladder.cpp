@@ -7,6 +7,7 @@
 #include <set>
 
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/stl/block_words.hpp"
 #include "interpreter/stl/drawings/ladder_network.hpp"
 
 namespace s7200::stl {
@@ -156,6 +157,10 @@ class PageReader {
     LadderRow row = row_of(line, number);
     if (listing_) return page_.networks.back().listing.push_back({std::string(line), {number, 1, 1}});
     if (begins_listing(row)) return begin_listing(row);
+    if (auto variable = declared_below_head(text, number)) {
+      page_.networks.back().variables.push_back(std::move(*variable));
+      return;
+    }
     const std::size_t start = first_cell(row);
     if (start == row.cells.size()) return;
     if (row.at(start) == U'/' && row.at(start + 1) == U'/') return add_comment(text);
@@ -173,6 +178,25 @@ class PageReader {
     std::size_t column = start;
     while (is_digit_cell(row.at(column))) ++column;
     return column > start && is_blank_cell(row.at(column)) && text_of(row, column, row.cells.size()) == "STL";
+  }
+
+  /// `VAR_INPUT  level : INT;  // comment`
+  std::optional<Variable> declared_below_head(std::string_view text, std::uint32_t line) const {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const auto kind = std::ranges::find(kDeclarationWords, text.substr(0, end));
+    const bool below_head = !open_ && frame_.empty() && !page_.networks.empty() && page_.networks.back().head;
+    if (!below_head || kind == kDeclarationWords.end()) return {};
+    const std::size_t semicolon = text.find(';'), colon = text.substr(0, semicolon).rfind(':');
+    if (semicolon == std::string_view::npos || colon == std::string_view::npos || colon < end) return {};
+    const auto type = std::ranges::find(kTypeWords, trim(text.substr(colon + 1, semicolon - colon - 1)), &TypeWord::name);
+    if (type == kTypeWords.end()) return {};
+    const std::size_t comment = text.find("//", semicolon);
+    return Variable{std::string(trim(text.substr(end, colon - end))),
+                    static_cast<Variable::Kind>(kind - kDeclarationWords.begin()),
+                    static_cast<Variable::Type>(type - kTypeWords.begin()),
+                    {},
+                    {line, 1, 1},
+                    std::string(comment == std::string_view::npos ? std::string_view{} : trim(text.substr(comment + 2)))};
   }
 
   void begin_listing(const LadderRow& row) {

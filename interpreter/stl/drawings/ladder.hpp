@@ -11,7 +11,7 @@
 //
 // More than Micro/DOS could draw, read as `s7200 inspect … ladder` writes it: a box whose ENO leads on, `ENO├──`; a line
 // that goes on below, `──>A` and `A>──`; and in place of a drawing the STL of a network that has none, from a line `3   STL`
-// to the next blank one.
+// to the next blank one; below the frame of a routine its local variables, `VAR_INPUT  level : INT;`.
 //
 // No description of these drawings was found: the shapes are those of a published tip. A wire that the page lost is an error
 // and is not guessed at.
@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "interpreter/base/diagnostic.hpp"
+#include "interpreter/stl/ast.hpp"
 
 namespace s7200::stl {
 
@@ -70,6 +71,7 @@ struct LadderNetwork {
   Position position{};
   std::vector<std::string> comments{};  ///< lines of comment above the drawing, without the `//`
   std::optional<LadderElement> head{};  ///< the frame that begins a routine or is a label: symbol SBR, operand 50
+  std::vector<Variable> variables{};    ///< that the routine of the head declares, without addresses
   LadderBranch rail{};                  ///< a wire, and what hangs from the power rail
   std::vector<LadderText> listing{};    ///< lines of STL in place of a drawing
   bool readable = true;                 ///< false: the diagnostics say why, and nothing hangs from the rail

@@ -273,5 +273,31 @@ TEST(LadderView, RungsOfEveryShapeReadBack) {
   }
 }
 
+TEST(LadderView, TheHeadOfASubroutineDeclaresItsVariables) {
+  stl::ParseResult parsed = s7200::read_text(
+      "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD I0.0\nCALL Scale, VW0, M0.0, VW2\nEND_ORGANIZATION_BLOCK\n"
+      "SUBROUTINE_BLOCK Scale:SBR3\nVAR_INPUT\n raw : INT; // of the sensor\nEND_VAR\nVAR_IN_OUT\n on : BOOL;\nEND_VAR\n"
+      "VAR_OUTPUT\n result : INT;\nEND_VAR\nVAR\n t : REAL;\nEND_VAR\nBEGIN\nNETWORK 1\nLD #on\nMOVW #raw, #result\n"
+      "END_SUBROUTINE_BLOCK\n",
+      "test.awl");
+  stl::resolve_symbols(parsed);
+  const std::string page = ladder_text(drawn_networks(parsed.source), parsed.source, false);
+  EXPECT_NE(page.find("└───┬────┘\n"
+                      "    VAR_INPUT   raw : INT;  // of the sensor\n"
+                      "    VAR_IN_OUT  on : BOOL;\n"
+                      "    VAR_OUTPUT  result : INT;\n"
+                      "    VAR         t : REAL;\n"),
+            std::string::npos)
+      << page;
+  const auto back = ladder_to_stl(stl::read_ladder(page, "page"));
+  EXPECT_TRUE(back.diagnostics.empty());
+  ASSERT_EQ(back.source.blocks.size(), 1U);
+  const auto same = [](const stl::Variable& a, const stl::Variable& b) {
+    return a.name == b.name && a.kind == b.kind && a.type == b.type && a.address == b.address && a.comment == b.comment;
+  };
+  EXPECT_EQ(back.source.blocks[0].number, 3U);
+  EXPECT_TRUE(std::ranges::equal(back.source.blocks[0].variables, parsed.source.blocks[1].variables, same));
+}
+
 }  // namespace
 }  // namespace s7200::tools::ladder_view_test

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "interpreter/base/text/text.hpp"
-#include "interpreter/stl/printer.hpp"
+#include "interpreter/program/loading/convert.hpp"
 #include "interpreter/stl/tables/symbols.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/input.hpp"
@@ -60,7 +60,7 @@ int run_import(const ImportOptions& options) {
   if (!repair(*text, options.repairs)) return kUnusable;
   print_notes(reading_notes(*text));
   stl::resolve_symbols(text->parsed);  // a listing without blocks knows no routine by its name
-  const std::string stl = stl::to_text(text->parsed.source);
+  const std::string stl = imported_text(text->parsed.source);
   if (options.output.empty() || options.output == "-") {
     if (options.json)
       print_json(options, *text, stl);

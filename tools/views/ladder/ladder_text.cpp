@@ -9,6 +9,7 @@
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/base/text/wrapped.hpp"
 #include "interpreter/program/ladder/ladder_boxes.hpp"
+#include "interpreter/stl/block_words.hpp"
 #include "interpreter/stl/printer.hpp"
 
 namespace s7200::tools {
@@ -141,6 +142,23 @@ std::string head_text(const stl::LadderElement& head, bool ascii) {
   return lines;
 }
 
+/// The local variables of the routine that a head begins: `VAR_INPUT   level : INT;  // comment`
+std::string declarations_text(const stl::LadderElement& head, const stl::Source& program) {
+  const auto block = std::ranges::find_if(program.blocks, [&](const stl::Block& each) {
+    return stl::words(each.kind).head == head.symbol && !head.operands.empty() &&
+           head.operands.front().text == fmt::format("{}", each.number);
+  });
+  if (block == program.blocks.end()) return {};
+  std::string text;
+  for (const stl::Variable& variable : block->variables) {
+    const std::string line =
+        fmt::format("    {:<10}  {} : {};{}{}", stl::word(variable.kind), variable.name, stl::word(variable.type).name,
+                    variable.comment.empty() ? "" : "  // ", stl::trim(variable.comment));
+    text += stl::wrapped(stl::printable(line) + "\n", kLadderColumns, 16);
+  }
+  return text;
+}
+
 std::string rows_text(const DrawnNetwork& network, bool ascii, const LadderFlow* flow) {
   const LadderGrid grid = grid_of(network);
   std::string text;
@@ -253,7 +271,8 @@ std::string network_text(const DrawnNetwork& network, const stl::Source& program
   for (const std::string& comment : network.ladder.comments)
     text += stl::printable(fmt::format("// {}", stl::trim(comment))) + "\n";
   if (!network.why_not.empty()) return text + listing_text(network, statements_of(program));
-  text += network.ladder.head ? head_text(*network.ladder.head, ascii) : rows_text(network, ascii, flow);
+  text += network.ladder.head ? head_text(*network.ladder.head, ascii) + declarations_text(*network.ladder.head, program)
+                              : rows_text(network, ascii, flow);
   if (flow) text += values_text(*flow);
   if (!network.other_stl.empty()) text += stl::wrapped("    " + other_stl_text(network) + "\n", kLadderColumns);
   for (const std::string& line : notes_text(network, program)) text += line + "\n";
