@@ -51,6 +51,12 @@ std::string winner_text(const Facts& facts, std::uint32_t coil, std::uint32_t ot
                      line(facts.program, other));
 }
 
+/// Whether an op is in an interrupt routine that an event starts, and the other one in the main program or in what it calls.
+bool interrupts_other(const ControlFlow& flow, const Calls& calls, std::uint32_t op, std::uint32_t other) {
+  const Calls::Node& node = calls.nodes[flow.nodes[op].routine];
+  return !node.by_main && node.by_interrupt && calls.nodes[flow.nodes[other].routine].by_main;
+}
+
 /// Which ops use what the coils of a program write.
 class Uses {
  public:
@@ -153,6 +159,7 @@ std::set<std::uint64_t> loaded_steps(const Facts& facts) {
 void find_double_coils(const Facts& facts, stl::Diagnostics& diagnostics) {
   const Program& program = facts.program;
   Paths paths(program, facts.flow);
+  const Calls calls = calls_of(program, facts.flow);
   const Uses uses(facts);
   const std::vector<Stretch> interrupts = paths.interrupts();
   std::map<std::uint64_t, Earlier> coils;
@@ -165,6 +172,18 @@ void find_double_coils(const Facts& facts, stl::Diagnostics& diagnostics) {
     const bool used = other && !output && (uses.any(bit, paths.between(*other, coil)) || uses.any(bit, interrupts));
     if (used) other.reset();
     if (!other && output) other = earlier.beside(paths, coil);
+    const auto scan =
+        !other && output && earlier.in_every_scan && interrupts_other(facts.flow, calls, coil, *earlier.in_every_scan)
+            ? earlier.in_every_scan
+            : std::nullopt;
+    if (scan)
+      diagnostics.push_back(
+          warn(Warning::DoubleCoil, place(program, coil),
+               fmt::format("{} is already a coil in line {}, which every scan executes: it decides, not this one of an "
+                           "interrupt",
+                           written(program, coil, 0), line(program, *scan)),
+               "join both conditions in one rung, or set a bit here that the rung in the scan looks at",
+               fmt::format("coil {}", written(program, coil, 0))));
     if (other)
       diagnostics.push_back(warn(Warning::DoubleCoil, place(program, coil),
                                  fmt::format("{} is already a coil in line {}; {}", written(program, coil, 0),

@@ -15,7 +15,8 @@
 namespace s7200 {
 
 /// A coil that always overwrites what an earlier one has written. An inactive segment writes its coils too, so LSCR does not
-/// keep them apart. Memory may have two coils if it is read in between; an output may not, because the last coil decides.
+/// keep them apart. Memory may have two coils if it is read in between; an output may not, because the last coil decides:
+/// that of the scan, too, if the other one is an interrupt's.
 void find_double_coils(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// A bit that S, R or a coil writes and that an instruction which is always executed later in the routine writes again,
@@ -28,11 +29,15 @@ void find_unreachable(const Facts& facts, stl::Diagnostics& diagnostics);
 /// EU and ED have one memory bit each: executed twice in a scan, the second time sees no edge.
 void find_repeated_edges(const Facts& facts, stl::Diagnostics& diagnostics);
 
-/// 100 ms timers count when they are executed (facts 6.4).
+/// 100 ms timers count when they are executed, and have to be once in each scan (facts 6.4): one that a jump leaves out, in
+/// a subroutine that is only called under a condition, or in a FOR loop.
 void find_skipped_timers(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// SM0.0 is always 1. LDN SM0.0 is left alone: it is how programs write a constant 0, or switch a rung off.
 void find_constant_contacts(const Facts& facts, stl::Diagnostics& diagnostics);
+
+/// A comparison that holds for all numbers of its width or for none: VB0 >= 0, VW0 > 32767, 5 >= 3.
+void find_constant_comparisons(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// A rung that needs what excludes each other, VW2 >= 950 and VW2 <= 90: power flow that no memory gives.
 void find_never_true(const Facts& facts, stl::Diagnostics& diagnostics);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/analysis/effects/value_boxes.hpp"
 #include "interpreter/analysis/flow/paths.hpp"
 #include "interpreter/analysis/flow/ways.hpp"
@@ -54,7 +55,7 @@ class Rungs {
     }
   }
 
-  std::vector<Stretch> all_{};  // of a network the last one first
+  std::vector<Stretch> all_{};           // of a network the last one first
   std::vector<std::uint32_t> begins_{};  // by op
 };
 
@@ -74,7 +75,49 @@ std::vector<Stretch> suspicious_rungs(const Facts& facts, const Rungs& rungs) {
   return found;
 }
 
-/// Whether a level depends on one bit alone: `LD M0.0`, `AN M0.0` makes a 0, and is meant so.
+/// What a comparison of numbers of a width is for all of them; nothing if it depends on them. Of reals nothing is told.
+std::optional<bool> same_for_all(const ContactForm& form, const ValueRange& a, const ValueRange& b) {
+  const auto is_below = [](const ValueRange& x, const ValueRange& y) -> std::optional<bool> {
+    if (x.most < y.least) return true;
+    return x.least >= y.most ? std::optional(false) : std::nullopt;
+  };
+  const auto inverted = [](std::optional<bool> result) { return result ? std::optional(!*result) : result; };
+  switch (form.relation) {
+    case Relation::Less:
+      return is_below(a, b);
+    case Relation::Greater:
+      return is_below(b, a);
+    case Relation::GreaterEqual:
+      return inverted(is_below(a, b));
+    case Relation::LessEqual:
+      return inverted(is_below(b, a));
+    case Relation::Equal:
+    case Relation::NotEqual:
+      break;
+  }
+  const bool numbers = a.least == a.most && b.least == b.most;  // no width has a constant that it cannot have
+  return numbers ? std::optional((a == b) == (form.relation == Relation::Equal)) : std::nullopt;
+}
+
+/// Whether a constant is another number to the instruction than it is as written: -1 of a byte is 255.
+bool has_other_sign(const Program& program, std::uint32_t op, Width width) {
+  const auto& written = program.statement(op).operands;
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    const auto* integer = std::get_if<stl::Integer>(&written[i].value);
+    const auto constant = constant_value(program, program.ops[op][i], width);
+    if (integer && constant && integer->form == stl::Integer::Form::Decimal && integer->value != *constant) return true;
+  }
+  return false;
+}
+
+std::string_view range_text(Width width) {
+  return width == Width::Byte   ? "a byte is from 0 to 255"
+         : width == Width::Word ? "a word is from -32768 to 32767"
+                                : "a double word is from -2147483648 to 2147483647";
+}
+
+/// Whether a level depends on one bit alone: `LD M0.0`, `AN M0.0` makes a 0, and is meant so. Nobody makes one of an input,
+/// an output, a timer or a counter.
 bool looks_at_one_bit(const Facts& facts, const Ways& ways, const RungLogic& rung, std::size_t level) {
   using Kind = NetworkLogic::Gate::Kind;
   std::set<std::size_t> contacts;
@@ -89,7 +132,11 @@ bool looks_at_one_bit(const Facts& facts, const Ways& ways, const RungLogic& run
   }
   if (contacts.size() != 1) return false;
   const NetworkLogic::Contact& only = rung.logic.contacts[*contacts.begin()];
-  return only.statement && contact_form(*facts.program.ops[ways.op_of(only)].instruction).kind == ContactForm::Kind::Bit;
+  if (!only.statement) return false;
+  const Op& contact = facts.program.ops[ways.op_of(only)];
+  constexpr Areas kNotOwn = set_of(Area::I) | set_of(Area::Q) | set_of(Area::T) | set_of(Area::C);
+  return contact_form(*contact.instruction).kind == ContactForm::Kind::Bit &&
+         !contains(kNotOwn, area_of(as_named({contact[0].at * std::uint64_t{8} + contact[0].bit, 1})));
 }
 
 bool counts_up(const Op& op) { return op.instruction->mnemonic == "CTU" || op.instruction->mnemonic == "CTUD"; }
@@ -145,6 +192,31 @@ std::optional<std::int64_t> reset_at(const Program& program, const Ways& ways, s
 }
 
 }  // namespace
+
+void find_constant_comparisons(const Facts& facts, stl::Diagnostics& diagnostics) {
+  const Program& program = facts.program;
+  for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
+    const Op& op = program.ops[i];
+    const ContactForm form = contact_form(*op.instruction);
+    const bool reals = form.type == ContactForm::Type::Real;
+    if (form.kind != ContactForm::Kind::Numbers || reals || op[0].unread() || op[1].unread()) continue;
+    const Width width = op.instruction->operand[0].width;
+    const auto values = [&](const Operand& operand) {
+      const auto constant = constant_value(program, operand, width);
+      return constant ? ValueRange{*constant, *constant} : range_of(width);
+    };
+    if (has_other_sign(program, i, width)) continue;  // that is the warning then
+    const ValueRange a = values(op[0]), b = values(op[1]);
+    const auto always = same_for_all(form, a, b);
+    if (!always) continue;
+    const bool both = a.least == a.most && b.least == b.most;
+    diagnostics.push_back(
+        warn(Warning::ConstantContact, place(program, i),
+             fmt::format("{}: this contact never {}", both ? "it compares two constants" : range_text(width),
+                         *always ? "opens" : "closes"),
+             "compare with another number, or take out the contact, or the rung if it is not meant to work"));
+  }
+}
 
 void find_never_true(const Facts& facts, stl::Diagnostics& diagnostics) {
   const Program& program = facts.program;

@@ -118,6 +118,25 @@ std::optional<std::uint32_t> overwriting(const Facts& facts, Paths& paths, std::
   return {};
 }
 
+/// Whether no other instruction works on the timer of an op. Of two, each may be executed in the scans in which the other
+/// one is not.
+bool is_only_one(const Program& program, const Op& timer) {
+  return std::ranges::count_if(program.ops, [&](const Op& op) {
+           return op.instruction->hidden == Hidden::Number && op.instruction->operand[0].areas == set_of(Area::T) &&
+                  !op[0].unread() && op[2].at == timer[2].at;
+         }) == 1;
+}
+
+/// The only CALL of the subroutine that an op is in, if it depends on a condition. A segment executes nothing while it is
+/// off, and what it calls is meant so.
+std::optional<std::uint32_t> call_under_a_condition(const Facts& facts, const Calls& calls, std::uint32_t op) {
+  const Calls::Node& node = calls.nodes[facts.flow.nodes[op].routine];
+  const bool once = node.called.size() == 1 && node.by_main && !node.by_interrupt;
+  if (!once) return {};
+  const std::uint32_t call = node.called.front().op;
+  return facts.flow.nodes[call].powered || facts.program.ops[call].in_segment ? std::nullopt : std::optional(call);
+}
+
 /// The mnemonic of a contact that is in series or in parallel with the one in front of it; nothing of any other op.
 std::string_view joined_to_the_top(const Op& op) {
   const std::string_view mnemonic = op.instruction->mnemonic;
@@ -174,6 +193,8 @@ void find_repeated_edges(const Facts& facts, stl::Diagnostics& diagnostics) {
 
 void find_skipped_timers(const Facts& facts, stl::Diagnostics& diagnostics) {
   const Program& program = facts.program;
+  const Calls calls = calls_of(program, facts.flow);
+  std::vector<std::uint32_t> loops;      // the FOR around an op
   std::uint32_t jump = 0, leads_to = 0;  // the jump forwards that goes farthest
   for (std::uint32_t op = 0; op < program.ops.size(); ++op) {
     const Op& now = program.ops[op];
@@ -181,8 +202,27 @@ void find_skipped_timers(const Facts& facts, stl::Diagnostics& diagnostics) {
       jump = op;
       leads_to = now.target;
     }
+    if (structure_of(now) == Structure::For) loops.push_back(op);
+    if (structure_of(now) == Structure::Next && !loops.empty()) loops.pop_back();
     const bool times = now.instruction->hidden == Hidden::Number && now.instruction->operand[0].areas == set_of(Area::T);
-    if (op >= leads_to || !times || now[0].unread() || timer_base(now[2].at).base != 100 * kMillisecond) continue;
+    if (!times || now[0].unread() || timer_base(now[2].at).base != 100 * kMillisecond) continue;
+    const auto call = is_only_one(program, now) ? call_under_a_condition(facts, calls, op) : std::nullopt;
+    if (call)
+      diagnostics.push_back(
+          warn(Warning::SkippedTimer, place(program, op),
+               fmt::format("{} does not count while line {} does not call its routine: 100 ms timers count when they are "
+                           "executed",
+                           written(program, op, 0), line(program, *call)),
+               "call the routine in every scan and hand the condition over, or use a 10 ms timer",
+               fmt::format("call {}", line(program, *call))));
+    if (!loops.empty())
+      diagnostics.push_back(
+          warn(Warning::SkippedTimer, place(program, op),
+               fmt::format("{} is executed in each pass of the loop from line {}: a 100 ms timer has to be executed once in "
+                           "each scan to keep time",
+                           written(program, op, 0), line(program, loops.back())),
+               "move it out of the loop", fmt::format("loop {}", line(program, loops.back()))));
+    if (op >= leads_to || call || !loops.empty()) continue;
     diagnostics.push_back(
         warn(Warning::SkippedTimer, place(program, op),
              fmt::format("{} does not count while line {} jumps over it: 100 ms timers count when they are executed",

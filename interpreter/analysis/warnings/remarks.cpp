@@ -6,6 +6,11 @@
 
 #include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/analysis/effects/pointers.hpp"
+#include "interpreter/analysis/effects/value_boxes.hpp"
+#include "interpreter/analysis/flow/calls.hpp"
+#include "interpreter/analysis/flow/first_scan.hpp"
+#include "interpreter/analysis/flow/paths.hpp"
+#include "interpreter/analysis/warnings/lint_ops.hpp"
 #include "interpreter/base/text/among.hpp"
 #include "interpreter/model/ports.hpp"
 #include "interpreter/program/loading/unread.hpp"
@@ -22,6 +27,8 @@ class RemarkFinder {
     find_shared();
     for (std::uint32_t op = 0; op < facts_.program.ops.size(); ++op) find_past_symbol(op);
     for (std::uint32_t op = 0; op < facts_.program.ops.size(); ++op) find_full_room(op);
+    find_written_twice();
+    for (std::uint32_t op = 0; op < facts_.program.ops.size(); ++op) find_switched_off(op);
     std::ranges::stable_sort(remarks_, {}, [](const Remark& remark) { return std::tuple(remark.kind, remark.bits.first); });
     return std::move(remarks_);
   }
@@ -79,6 +86,62 @@ class RemarkFinder {
       for (const MemoryAccess& access : facts_.effects[op])
         if (op_of(op).is_contact && access.reads() && !access.by_pointer && access.bits.overlaps(bit)) return true;
     return false;
+  }
+
+  // --- outputs in several places ---
+
+  void find_written_twice() {
+    const Calls calls = calls_of(facts_.program, facts_.flow);
+    Paths paths(facts_.program, facts_.flow);
+    std::map<std::uint64_t, std::vector<std::uint32_t>> coils;  // of outputs, by bit
+    for (const std::uint32_t coil : lint::ops_with(facts_.program, Effect::Coil))
+      if (const Bits bit = bits_of(facts_.program, op_of(coil), 0); area_of(bit) == Area::Q)
+        coils[bit.first].push_back(coil);
+    for (const auto& [bit, ops] : coils) add_other_coil({bit, 1}, ops, paths, calls);
+    const std::vector<bool> first_scan = coils.empty() ? std::vector<bool>{} : ops_of_first_scan(facts_.program);
+    for (std::uint32_t op = 0; op < facts_.program.ops.size() && !coils.empty(); ++op)
+      if (!first_scan[op]) add_written_whole(op, coils, paths);
+  }
+
+  void add_other_coil(const Bits& bit, const std::vector<std::uint32_t>& coils, Paths& paths, const Calls& calls) {
+    const auto always = std::ranges::find_if(coils, [&](std::uint32_t coil) { return paths.in_every_scan(coil); });
+    if (always == coils.end()) return;
+    std::vector<std::uint32_t> ops{*always};
+    for (const std::uint32_t coil : coils) {
+      const std::uint32_t routine = paths.routine(coil);
+      if (routine != 0 && routine != paths.routine(*always) && calls.nodes[routine].by_main && !paths.in_every_scan(coil))
+        ops.push_back(coil);
+    }
+    if (ops.size() > 1) remarks_.push_back({Remark::Kind::OtherCoil, bit, {}, std::move(ops)});
+  }
+
+  /// 0 switches all off, in an emergency or in the first scan: it is meant so.
+  void add_written_whole(std::uint32_t op, const std::map<std::uint64_t, std::vector<std::uint32_t>>& coils,
+                         const Paths& paths) {
+    const auto rules = op_of(op).instruction->rules();
+    const bool clears = !rules.empty() && constant_value(facts_.program, op_of(op)[0], rules[0].width) == 0;
+    if (facts_.flow.nodes[op].powered || clears) return;
+    for (const MemoryAccess& access : facts_.effects[op]) {
+      const bool whole = access.role == Role::Out && access.operand != kNoOperand && access.bits.count >= 8;
+      if (!whole || access.by_pointer || area_of(access.bits) != Area::Q) continue;
+      for (auto bit = coils.lower_bound(access.bits.first); bit != coils.end() && bit->first < access.bits.end(); ++bit) {
+        const auto coil =
+            std::ranges::find_if(bit->second, [&](std::uint32_t each) { return each < op && paths.leads_to(each, op); });
+        if (coil == bit->second.end()) continue;
+        remarks_.push_back({Remark::Kind::WrittenWhole, {bit->first, 1}, {}, {*coil, op}});
+        return;
+      }
+    }
+  }
+
+  /// A second LDN SM0.0 in front of a counter is an input that it does not use.
+  void find_switched_off(std::uint32_t op) {
+    const Op& contact = op_of(op);
+    if (contact.instruction->mnemonic != "LDN" || contact[0].pointer || op + 1 == facts_.program.ops.size()) return;
+    const Rung& next = op_of(op + 1).instruction->rung;
+    const bool alone = next.writes_output && next.stack == StackUse{.needs = 1, .change = 0};
+    if (contact[0].at == sm::kScanStatus && contact[0].bit == 0 && alone)
+      remarks_.push_back({Remark::Kind::SwitchedOff, {sm::kScanStatus * 8u, 1}, {}, {op, op + 1}});
   }
 
   // --- symbols ---

@@ -7,7 +7,7 @@ namespace s7200 {
 
 std::span<const WarningInfo> all_warnings() {
   static constexpr std::array kTable{
-      WarningInfo{Warning::ConstantContact, "constant-contact", "a contact of SM0.0 that never opens or never closes"},
+      WarningInfo{Warning::ConstantContact, "constant-contact", "a contact of SM0.0, or a comparison, that never opens or never closes"},
       WarningInfo{Warning::DoubleCoil, "double-coil", "a coil that another one always overwrites"},
       WarningInfo{Warning::DoubleCounter, "double-counter", "a counter that counts twice in a scan"},
       WarningInfo{Warning::DoubleLoop, "double-loop", "two PIDs of the same loop"},
@@ -31,7 +31,7 @@ std::span<const WarningInfo> all_warnings() {
       WarningInfo{Warning::RepeatedEdge, "repeated-edge", "EU or ED in a loop, or in a subroutine that a scan calls twice"},
       WarningInfo{Warning::RestartedTimer, "restarted-timer",
                   "ATCH of a timed interrupt in every scan: it starts the period again"},
-      WarningInfo{Warning::SkippedTimer, "skipped-timer", "a 100 ms timer that a jump leaves out in some scans"},
+      WarningInfo{Warning::SkippedTimer, "skipped-timer", "a 100 ms timer that some scans leave out, or that a loop executes again"},
       WarningInfo{Warning::Unreachable, "unreachable", "an instruction that nothing leads to"},
       WarningInfo{Warning::UnreachedPreset, "unreached-preset",
                   "a counter that is reset below its preset, and whose bit a contact looks at"},

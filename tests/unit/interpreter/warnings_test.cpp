@@ -90,6 +90,13 @@ TEST(DoubleCoil, IsNotACoilOnEachOfTwoWaysThroughTheProgram) {
   EXPECT_EQ(warnings_of("LD I0.1\n= Q0.0\nLD I0.0\nFOR VW0, 1, VW2\nLD I0.2\n= Q0.0\nNEXT\nMEND\n"), "");
 }
 
+TEST(DoubleCoil, IsOneOfAnInterruptThatTheScanOverwrites) {
+  const std::string interrupt = "MEND\nINT 0\nLD I0.1\n= Q0.0\nRETI\n", attached = "LD SM0.1\nATCH 0, 10\nENI\n";
+  EXPECT_EQ(warnings_of(attached + "LD I0.0\n= Q0.0\n" + interrupt), "9 double-coil\n");
+  EXPECT_EQ(warnings_of(attached + "LD I0.0\nJMP 1\nLD I0.2\n= Q0.0\nLBL 1\n" + interrupt), "") << "at times";
+  EXPECT_EQ(warnings_of(attached + "LD I0.0\n= Q0.1\n" + interrupt), "");
+}
+
 TEST(DoubleCoil, IsAlsoFoundInsideARoutine) {
   EXPECT_EQ(warnings_of("LD I0.7\nCALL 0\nMEND\nSBR 0\nLD I0.0\n= Q0.0\nLD I0.1\n= Q0.0\nRET\n"), "8 double-coil\n");
   EXPECT_EQ(warnings_of("LD I0.7\nCALL 0\nMEND\nSBR 0\nLD I0.0\n= Q0.0\nCRET\nLD I0.1\n= Q0.0\nRET\n"), "");
@@ -147,6 +154,21 @@ TEST(SkippedTimer, IsA100MillisecondTimerThatAJumpLeavesOut) {
   EXPECT_EQ(warnings_of("LD I0.0\nJMP 1\nLD I0.1\n= Q0.0\nLBL 1\nLD I0.1\nTON T37, 10\nMEND\n"), "");
 }
 
+TEST(SkippedTimer, IsOneInASubroutineThatIsCalledUnderACondition) {
+  const std::string timer = "MEND\nSBR 0\nLD I0.1\nTON T37, 10\nRET\n";
+  EXPECT_EQ(warnings_of("LD I0.0\nCALL 0\n" + timer), "6 skipped-timer\n");
+  EXPECT_EQ(warnings_of("LD SM0.0\nCALL 0\n" + timer), "");
+  EXPECT_EQ(warnings_of("LD I0.0\nCALL 0\nLDN I0.0\nCALL 0\n" + timer), "") << "one of both calls it";
+  EXPECT_EQ(warnings_of("LD I0.0\nCALL 0\nMEND\nSBR 0\nLD I0.1\nTON T33, 10\nRET\n"), "");
+  EXPECT_EQ(warnings_of("LD I0.0\nCALL 0\nMEND\nSBR 0\nCALL 1\nRET\nSBR 1\nLD I0.1\nTON T33, 10\nRET\n"), "");
+  EXPECT_EQ(warnings_of("LSCR S0.0\nLD SM0.0\nCALL 0\nSCRE\n" + timer), "") << "while the step is on";
+}
+
+TEST(SkippedTimer, IsOneInALoop) {
+  EXPECT_EQ(warnings_of("LD SM0.0\nFOR VW0, 1, 3\nLD I0.1\nTON T37, 10\nNEXT\nMEND\n"), "4 skipped-timer\n");
+  EXPECT_EQ(warnings_of("LD SM0.0\nFOR VW0, 1, 3\nINCW VW2\nNEXT\nLD I0.1\nTON T37, 10\nMEND\n"), "");
+}
+
 TEST(RepeatedEdge, IsAnEdgeThatAScanExecutesMoreThanOnce) {
   EXPECT_EQ(warnings_of("LD I0.0\nFOR VW0, 1, 3\nLD I0.1\nEU\nINCW VW2\nNEXT\nMEND\n"), "4 repeated-edge\n");
   EXPECT_EQ(warnings_of("LD SM0.0\nCALL 0\nCALL 0\nMEND\nSBR 0\nLD I0.1\nED\nINCW VW2\nRET\n"), "7 repeated-edge\n");
@@ -163,6 +185,17 @@ TEST(ConstantContact, IsOneOfSm00ThatDoesNothingOrNeverCloses) {
   EXPECT_EQ(warnings_of("LD SM0.0\nA I0.1\n= Q0.0\nLDN SM0.0\nNOT\n= Q0.1\nMEND\n"), "");
 }
 
+TEST(ConstantContact, IsAComparisonThatNoNumberChanges) {
+  const auto of_contact = [](const std::string& contact) { return warnings_of(contact + "\n= Q0.0\nMEND\n", cpu224()); };
+  for (const char* contact :
+       {"LDB>= VB0, 0", "LDB< VB0, 0", "LDB<= VB0, 255", "LDB> VB0, 255", "LDW> VW0, 32767", "LDW>= VW0, -32768",
+        "LDW<= *VD4, 32767", "LDD> VD0, 2147483647", "LDW>= 5, 3", "LDW= 5, 3", "LDB<> 5, 5", "LDB>= 255, VB0"})
+    EXPECT_EQ(of_contact(contact), "1 constant-contact\n") << contact;
+  for (const char* contact : {"LDB> VB0, 0", "LDB= VB0, 0", "LDB<> VB0, 255", "LDB< VB0, 255", "LDW> VW0, 32766",
+                              "LDW>= VW0, 0", "LDW> VW0, -32768", "LDW= VW0, 32767", "LDW>= VW0, VW0", "LDR>= VD0, 0.0"})
+    EXPECT_EQ(of_contact(contact), "") << contact;
+}
+
 // --- never-true, unreached-preset, restarted-timer ---
 
 std::string of_cpu224(std::string_view stl) { return warnings_of(stl, cpu224()); }
@@ -174,6 +207,7 @@ TEST(NeverTrue, IsARungThatNeedsWhatExcludesEachOther) {
   EXPECT_EQ(of_cpu224("LD I0.0\nA M0.0\nAN I0.0\n= Q0.0\nMEND\n"), "3 never-true\n");
   EXPECT_EQ(of_cpu224("LD I0.0\nLDW> VW2, 9\nO M0.1\nALD\nAN M0.1\nAW< VW2, 9\nS Q0.0, 1\nMEND\n"), "6 never-true\n");
   EXPECT_EQ(of_cpu224("LD SM0.0\nCALL 0\nMEND\nSBR 0\nLDN M0.0\nA I0.0\nA M0.0\nTON T37, 10\nRET\n"), "7 never-true\n");
+  EXPECT_EQ(of_cpu224("LD I1.2\nAN I1.2\n= Q0.5\nMEND\n"), "2 never-true\n") << "nobody makes a 0 of an input";
 }
 
 TEST(NeverTrue, IsNoneWhereBothMayBe) {
@@ -191,7 +225,8 @@ TEST(NeverTrue, IsNoneWhereBothMayBe) {
 
 TEST(NeverTrue, RungsOfATextWithoutNetworksAreLookedAtOneByOne) {
   std::string text;
-  for (int i = 0; i < 2000; ++i) text += fmt::format("LD{} M{}.0\nA I0.{}\nS V{}.0, 1\n", i % 2 == 0 ? "" : "N", i / 2 % 32, i % 8, i);
+  for (int i = 0; i < 2000; ++i)
+    text += fmt::format("LD{} M{}.0\nA I0.{}\nS V{}.0, 1\n", i % 2 == 0 ? "" : "N", i / 2 % 32, i % 8, i);
   EXPECT_EQ(of_cpu224(text + "LD I0.0\nAN I0.0\nA I0.1\n= Q0.0\nMEND\n"), "6002 never-true\n") << "and that at once";
 }
 

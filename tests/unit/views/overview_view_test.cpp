@@ -54,5 +54,32 @@ TEST(OverviewView, NamesBitsThatAreOnlySetOrOnlyReset) {
   EXPECT_EQ(look("LD I0.0\nR M0.0, 8\nMEND\n").size(), 0U);
 }
 
+TEST(OverviewView, NamesOutputsThatAreWrittenInSeveralPlacesAndRungsThatAreOff) {
+  const auto look = [](std::string_view stl) {
+    std::vector<std::string> texts;
+    const ordered_json json = overview_json(test::inspected(stl));
+    for (const ordered_json& remark : json["worth_a_look"]) texts.push_back(remark["text"]);
+    return texts;
+  };
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(look("LD I0.0\n= Q0.1\nLD I0.1\nCALL 0\nMEND\nSBR 0\nLD I0.2\n= Q0.1\nRET\n"),
+            Texts{"Q0.1 is a coil in test.stl:2 in every scan, and in test.stl:8 at times"});
+  EXPECT_EQ(look("LD I0.0\n= Q0.1\nLD I0.1\nMOVB VB1, QB0\nMEND\n"),
+            Texts{"Q0.1 is a coil in test.stl:2, and MOVB VB1, QB0 in test.stl:4 writes over it at times"});
+  EXPECT_EQ(look("LDN SM0.0\n= Q0.4\nMEND\n"), Texts{"LDN SM0.0 in test.stl:1 switches = Q0.4 off"});
+  for (const std::string_view other :
+       {"LD I0.0\n= Q0.1\nLD I0.1\nMOVB 0, QB0\nMEND\n", "LD I0.0\n= Q0.1\nLD SM0.1\nMOVB VB1, QB0\nMEND\n",
+        "LD I0.1\nMOVB VB1, QB0\nLD I0.0\n= Q0.1\nMEND\n", "LD I0.0\n= Q0.1\nLD I0.1\nMOVB VB1, QB1\nMEND\n",
+        "LD I0.0\nCALL 0\nLDN I0.0\nCALL 1\nMEND\nSBR 0\nLD I0.2\n= Q0.1\nRET\nSBR 1\nLD I0.3\n= Q0.1\nRET\n",
+        "LD I0.0\nLDN SM0.0\nCTU C0, 5\nLD C0\n= Q0.0\nMEND\n"})
+    EXPECT_EQ(look(other), Texts{}) << other;
+}
+
+TEST(OverviewView, AnInputOfAnEventIsAnInput) {
+  const auto json = overview_json(
+      test::inspected("LD SM0.1\nATCH 0, 0\nENI\nMEND\nINT 0\nLD SM0.0\nINCW VW0\nRETI\n"));
+  EXPECT_EQ(json["inputs"], ordered_json::parse(R"(["I0.0"])"));
+}
+
 }  // namespace
 }  // namespace s7200::tools::overview_view_test

@@ -117,6 +117,18 @@ std::string remark_text(const Inspection& inspection, const Remark& remark) {
     case Remark::Kind::SharedMemory:
       return fmt::format("{} has {} in it, {}: {}", quoted_symbol(remark.symbols[0]), quoted_symbol(remark.symbols[1]),
                          memory_text(remark.bits), places);
+    case Remark::Kind::OtherCoil:
+      return fmt::format("{} is a coil in {} in every scan, and in {} at times", bit_text(inspection, remark.bits),
+                         line_text(inspection, remark.ops.front()),
+                         stl::joined(std::vector(remark.ops.begin() + 1, remark.ops.end()),
+                                     [&](std::uint32_t op) { return line_text(inspection, op); }));
+    case Remark::Kind::WrittenWhole:
+      return fmt::format("{} is a coil in {}, and {} in {} writes over it at times", bit_text(inspection, remark.bits),
+                         line_text(inspection, remark.ops.front()), instruction_text(inspection, remark.ops.back()),
+                         line_text(inspection, remark.ops.back()));
+    case Remark::Kind::SwitchedOff:
+      return fmt::format("LDN SM0.0 in {} switches {} off", line_text(inspection, remark.ops.front()),
+                         instruction_text(inspection, remark.ops.back()));
     case Remark::Kind::PastItsSymbol:
     case Remark::Kind::MayPassItsSymbol:
       break;
@@ -140,7 +152,8 @@ std::string remarks_text(const Overview& overview) {
 }
 
 ordered_json remarks_json(const Overview& overview) {
-  constexpr std::string_view kKinds[]{"never reset", "never set", "shared memory", "past its symbol", "may pass its symbol"};
+  constexpr std::string_view kKinds[]{"never reset",         "never set",  "shared memory", "past its symbol",
+                                      "may pass its symbol", "other coil", "written whole", "switched off"};
   ordered_json all = ordered_json::array();
   for (const Remark& remark : overview.remarks) {
     ordered_json json{{"kind", kKinds[static_cast<std::size_t>(remark.kind)]},
