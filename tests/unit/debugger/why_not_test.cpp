@@ -1,5 +1,8 @@
 // What `why not` and `until` say holds a bit off.
+#include <fmt/ranges.h>
+
 #include "tests/unit/debugger/session.hpp"
+#include "tools/session/causes/why_not.hpp"
 
 namespace s7200::tools::why_not_test {
 namespace {
@@ -71,6 +74,35 @@ TEST(WhyNot, AContactBehindLrdOrLppIsNamedAndNotTheOneOfTheBranchBefore) {
   EXPECT_TRUE(has(session("why not Q0.5"), ", must be 0 (AN I0.5 in line 6): an input\n"));
   session("input I0.5=0 I0.6=1; scan 3");
   EXPECT_TRUE(has(session("why not Q0.6"), ", must be 1 (A I0.5 in line 9): an input\n"));
+}
+
+constexpr std::string_view kParameters =
+    "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.0\nCALL Outer, I1.5, VW20, Q0.7\nEND_ORGANIZATION_BLOCK\n"
+    "SUBROUTINE_BLOCK Outer:SBR0\nVAR_INPUT\non : BOOL; raw : INT;\nEND_VAR\nVAR_OUTPUT\nok : BOOL;\nEND_VAR\n"
+    "BEGIN\nNETWORK 1\nLD SM0.0\nCALL Guard, #on, #raw, #ok\nEND_SUBROUTINE_BLOCK\n"
+    "SUBROUTINE_BLOCK Guard:SBR1\nVAR_INPUT\nen : BOOL; lim : INT;\nEND_VAR\nVAR_OUTPUT\nok : BOOL;\nEND_VAR\n"
+    "BEGIN\nNETWORK 1\nLD #en\nAW>= #lim, 10\nAB< LB2, 60\n= #ok\nEND_SUBROUTINE_BLOCK\n";
+
+/// Of a memory picture nothing has run: local memory says nothing of what a subroutine was called with.
+std::string from_picture(std::uint8_t input, std::uint16_t value) {
+  OnePlc plc(on_cpu224(kParameters));
+  const auto state = std::make_unique<State>(plc.state());
+  state->image[image::kI + 1] = input;
+  store16(&state->image[image::kV + 20], value);
+  plc.simulation.cpu().restore(*state);
+  const Cpu& cpu = plc.simulation.cpu();
+  return fmt::format("{}\n", fmt::join(lines_of(why_not(cpu, *parse_wish("Q0.7", cpu.program()))), "\n"));
+}
+
+TEST(WhyNot, AParameterIsWhatTheCallHandsOver) {
+  EXPECT_TRUE(has(from_picture(0, 10), "I1.5 is 0, must be 1"));
+  const std::string low = from_picture(0x20, 9);
+  EXPECT_FALSE(has(low, "L0.0 is")) << low;
+  EXPECT_TRUE(has(low, ":LW1=9 >= 10 must hold")) << low;
+  EXPECT_TRUE(has(low, "CALL 1, #on:L0.0, #raw:LW1, #ok:L3.0 in line 17 hands it over")) << low;
+  const std::string high = from_picture(0x20, 61);
+  EXPECT_FALSE(has(high, ">= 10 must")) << high;
+  EXPECT_TRUE(has(high, "LB2=61 < 60 must hold")) << high;
 }
 
 TEST(WhyNot, TwoContactsOfTheSameBitThatExcludeEachOtherAreNoWay) {

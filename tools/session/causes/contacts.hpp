@@ -32,11 +32,14 @@ class Contacts {
   /// Its last execution, as far as that is not long ago; null otherwise.
   const InstructionRecord* found(std::uint32_t op) const;
 
-  /// The value of an operand; nothing for a bad pointer.
+  /// The value of an operand; nothing for a bad pointer. That of a parameter, unless it was found lately, is what the last
+  /// CALL of its subroutine hands over: the local memory is another one by now.
   std::optional<std::uint32_t> value(std::uint32_t op, std::size_t operand) const;
 
  private:
   bool compares(std::uint32_t op, const ContactForm& form) const;
+  std::optional<std::uint32_t> handed_over(std::uint32_t op, const Operand& local, Width width, std::size_t level) const;
+  std::optional<std::uint32_t> value_of(std::uint32_t op, const Operand& operand, Width width, std::size_t level) const;
 
   const Cpu& cpu_;
   const LatelyExecuted& lately_;

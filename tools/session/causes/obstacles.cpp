@@ -272,8 +272,36 @@ void Obstacles::add_value_of(Obstacle& to, const Condition& condition, std::size
   if (!place || *place >= image::kConstants) return;
   const OperandRule& rule = op(condition.op).instruction->operand[operand];
   const Bits bits = as_named({std::uint64_t{*place} * 8, std::uint64_t{bytes_of(rule.width)} * 8});
+  if (area_of(bits) == Area::L) return add_parameter(to, condition.op, operand, bits);
   Obstacle value = of_value(bits);
   if (const auto goal = goal_of(condition, operand); goal && value.same_as == 0) count_to(value, bits, *goal);
+  to.because.push_back(std::move(value));
+}
+
+/// What a comparison in a subroutine looks at in its local memory, and who hands it over.
+void Obstacles::add_parameter(Obstacle& to, std::uint32_t number, std::size_t operand, const Bits& local) {
+  Obstacle value{.kind = "value", .name = name_of(local)};
+  const std::uint32_t routine = facts_.flow.nodes[number].routine;
+  for (const CallSite& call : facts_.flow.calls) {
+    if (call.routine != routine) continue;
+    for (const Parameter& parameter : parameters_of(program(), call.op)) {
+      if (parameter.role == Role::Out || !local_bits(parameter).contains(local)) continue;
+      Obstacle given{.kind = "call", .text = fmt::format("{} hands it over", place_text(call.op)), .op = call.op};
+      const Bits actual{std::uint64_t{parameter.actual.at} * 8, local_bits(parameter).count};
+      const bool is_memory = !parameter.actual.pointer && parameter.actual.at < image::kConstants &&
+                             parameter.width != Width::Bit && area_of(as_named(actual)) != Area::L;
+      if (is_memory) given.because.push_back(of_value(as_named(actual)));
+      value.because.push_back(std::move(given));
+    }
+  }
+  const Writers writers = writers_of(local, true, routine);
+  add_rungs(value, writers.others);
+  const auto range = range_at(op(number)[operand].at, op(number).instruction->operand[operand].width, *program().model);
+  if (const auto found = contacts_.value(number, operand); found && range) {
+    std::vector<std::uint8_t> bytes;
+    for (std::uint32_t i = range->bytes(); i-- > 0;) bytes.push_back(static_cast<std::uint8_t>(*found >> 8 * i));
+    value.value = value_text(program(), *range, bytes);
+  }
   to.because.push_back(std::move(value));
 }
 
@@ -381,7 +409,9 @@ Obstacle Obstacles::followed(const Bits& bit, bool wanted) {
 Obstacle Obstacles::of_memory(const Bits& bit, bool wanted, std::optional<std::uint32_t> routine) {
   Obstacle found = about("bit", bit, wanted);
   if (add_forced(found, bit)) return found;
-  const std::pair<Bits, bool> own{bit, wanted};
+  // Each routine has local memory of its own.
+  const std::uint64_t of_routine = routine ? (std::uint64_t{*routine} + 1) << 40 : 0;
+  const std::pair<Bits, bool> own{{bit.first + of_routine, bit.count}, wanted};
   if (std::ranges::find(open_, own) != open_.end()) {
     found.text = "it would have to hold itself; see above";
     return found;
@@ -411,8 +441,13 @@ void Obstacles::add_arguments(Obstacle& to, const Bits& local, bool wanted, std:
       if (parameter.role == Role::Out || parameter.width != Width::Bit || !(local_bits(parameter) == local)) continue;
       Obstacle given{.kind = "call", .text = fmt::format("{} hands it over", place_text(call.op)), .op = call.op};
       const bool is_memory = !parameter.actual.pointer && parameter.actual.at < image::kConstants;
-      if (is_memory && is_on(bit_at(parameter.actual)) != wanted)
-        given.because.push_back(of_bit(bit_at(parameter.actual), wanted));
+      if (is_memory && is_on(bit_at(parameter.actual)) != wanted) {
+        const Bits actual = bit_at(parameter.actual);
+        const bool is_local = area_of(as_named(actual)) == Area::L;
+        given.because.push_back(is_local ? of_memory(actual, wanted, facts_.flow.nodes[call.op].routine)
+                                         : of_bit(actual, wanted));
+        if (is_local) given.because.back().bits = {0, 0};
+      }
       to.because.push_back(std::move(given));
     }
   }

@@ -82,6 +82,7 @@ class Obstacles {
   void add_arguments(Obstacle& to, const Bits& local, bool wanted, std::uint32_t routine);
   void add_indirect(Obstacle& to, const Writers& writers, const Bits& bits) const;
   void add_value_of(Obstacle& to, const Condition& condition, std::size_t operand);
+  void add_parameter(Obstacle& to, std::uint32_t op, std::size_t operand, const Bits& local);
   void add_edges(Obstacle& to, std::uint32_t counter, std::size_t level, std::int64_t edges);
   void add_timing(Obstacle& to, std::uint32_t by, std::uint32_t number, std::int64_t goal);
   void add_counting(Obstacle& to, std::uint32_t by, std::int64_t away);
