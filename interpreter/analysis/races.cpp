@@ -368,6 +368,10 @@ class RaceFinder {
         if (access.role == Role::Out && !access.somewhere) keep(step, access);
       }
     }
+    for (std::size_t step = 0; step < main_.steps.size() && !waiter_.asks_to_end(); ++step) {
+      if (op(step).instruction->structure == Structure::For) find_shared_index(step);
+      if (op(step).instruction->structure == Structure::Jump) find_shared_count(step);
+    }
     find_torn(Race::Kind::TornRead);
     find_torn(Race::Kind::TornWrite);
   }
@@ -577,6 +581,47 @@ class RaceFinder {
         return;
       }
     }
+  }
+
+  /// FOR writes its index, and each NEXT counts it and compares: it belongs to the loop from the first pass to the last.
+  void find_shared_index(std::size_t begin) {
+    const auto index = std::ranges::find_if(main_.steps[begin].accesses, [](const Access& access) {
+      return access.role == Role::Out && access.of_operand && !access.somewhere && is_shared(access.bits);
+    });
+    const Foreign* const writer = index == main_.steps[begin].accesses.end() ? nullptr : writer_of(index->bits);
+    if (!writer) return;
+    for (std::size_t step = begin + 1; step < main_.steps.size(); ++step) {
+      const bool ends = op(step).instruction->structure == Structure::Next && op(step).target == main_.steps[begin].op + 1;
+      if (!ends || main_.steps[step].call != main_.steps[begin].call) continue;
+      return add(Race::Kind::Scratch, index->bits, {begin, step}, *writer, writer->access.somewhere);
+    }
+  }
+
+  /// A loop that is closed by a jump backwards, and counts what the program has written in front of it.
+  void find_shared_count(std::size_t jump) {
+    const std::uint32_t call = main_.steps[jump].call, label = op(jump).target;
+    if (label >= main_.steps[jump].op) return;
+    std::size_t begin = jump;
+    while (begin > 0 && !(main_.steps[begin].call == call && main_.steps[begin].op == label)) --begin;
+    for (std::size_t step = begin; step < jump; ++step)
+      for (const Access& access : main_.steps[step].accesses) {
+        const bool counts = access.role == Role::InOut && access.certain && access.of_operand && is_shared(access.bits);
+        const Foreign* const writer = counts && access.bits.count >= kBitsOfByte ? writer_of(access.bits) : nullptr;
+        const auto written = writer ? written_in_front(begin, access.bits) : std::nullopt;
+        if (written) add(Race::Kind::Scratch, access.bits, {*written, jump}, *writer, true);
+      }
+  }
+
+  /// The step, not far in front of another one of the same execution, that writes some memory.
+  std::optional<std::size_t> written_in_front(std::size_t step, const Bits& bits) const {
+    constexpr std::size_t kNear = 20;
+    const std::uint32_t call = main_.steps[step].call;
+    for (std::size_t before = step; before-- > 0 && before + kNear >= step;)
+      for (const Access& access : main_.steps[before].accesses) {
+        if (main_.steps[before].call != call || !access.bits.overlaps(bits) || !access.writes()) continue;
+        return access.role == Role::Out && access.certain && access.bits == bits ? std::optional(before) : std::nullopt;
+      }
+    return {};
   }
 
   bool leads(std::size_t step, const Bits& pointer) const {

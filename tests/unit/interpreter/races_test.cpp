@@ -244,6 +244,24 @@ TEST(Races, ScratchMemoryOfBothSides) {
       "scratch? VD60 1-3");
 }
 
+TEST(Races, TheIndexOfALoopThatTheInterruptWrites) {
+  constexpr std::string_view kLoop = "LD SM0.0\nMOVW 0, VW30\nFOR VW100, 1, 50\nINCW VW30\nNEXT\n";
+  EXPECT_EQ(races(kLoop, "LD SM0.0\nMOVW 40, VW100\n"), "scratch VW100 2-4");
+  EXPECT_EQ(races(kLoop, "LD SM0.0\nFOR VW100, 1, 3\nINCW VW32\nNEXT\n"), "scratch VW100 2-4");
+  EXPECT_EQ(races(kLoop, "LD SM0.0\nFOR VW102, 1, 3\nINCW VW32\nNEXT\n"), "");
+  EXPECT_EQ(races(kLoop, "LD SM0.0\nMOVW VW100, VW40\n"), "") << "it only reads the index";
+  EXPECT_EQ(races("LD SM0.0\nDISI\n" + std::string(kLoop) + "LD SM0.0\nENI\n", "LD SM0.0\nMOVW 40, VW100\n"), "");
+  EXPECT_EQ(races("LD SM0.0\nCALL 1\n", "LD SM0.0\nMOVW 40, VW100\n", "SBR 1\n" + std::string(kLoop) + "RET\n"),
+            "scratch VW100 6-8");
+}
+
+TEST(Races, TheCountOfALoopThatAJumpCloses) {
+  constexpr std::string_view kLoop = "LD SM0.0\nMOVW 50, VW100\nLBL 1\nLD SM0.0\nDECW VW100\nLDN SM1.0\nJMP 1\n";
+  EXPECT_EQ(races(kLoop, "LD SM0.0\nMOVW 40, VW100\n"), "scratch? VW100 1-6");
+  EXPECT_EQ(races(kLoop, "LD SM0.0\nINCW VW102\n"), "");
+  EXPECT_EQ(races("LBL 1\nLD SM0.0\nINCW VW100\nLDN SM1.0\nJMP 1\n", kCounts), "") << "nothing is put there first";
+}
+
 TEST(Races, PointersThatMove) {
   constexpr std::string_view kLoop =
       "LD SM0.0\nMOVD &VB100, AC1\nFOR VW0, 1, 5\nLD SM0.0\nMOVW *AC1, AC0\nINCW AC0\nMOVW AC0, *AC1\n+D 2, AC1\nNEXT\n";
