@@ -80,8 +80,7 @@ int run_inspect(const InspectOptions& options) {
   }
   if (options.json) {
     auto results = results_of("inspect");
-    results["interrupted"] = interrupted();
-    results["files"] = std::move(files);
+    results.update({{"interrupted", interrupted()}, {"files", std::move(files)}});
     fmt::print("{}", lines_of(results));
   }
   print_interruption();
