@@ -95,7 +95,7 @@ std::string from_picture(std::uint8_t input, std::uint16_t value) {
 }
 
 TEST(WhyNot, AParameterIsWhatTheCallHandsOver) {
-  EXPECT_TRUE(has(from_picture(0, 10), "I1.5 is 0, must be 1"));
+  EXPECT_TRUE(has(from_picture(0, 10), "L0.0 is 0, must be 1 (LD #en:L0.0 in line 28)"));
   const std::string low = from_picture(0x20, 9);
   EXPECT_FALSE(has(low, "L0.0 is")) << low;
   EXPECT_TRUE(has(low, ":LW1=9 >= 10 must hold")) << low;
