@@ -1,9 +1,11 @@
 // Files that the command writes: what may be replaced, and that they are whole or absent.
 #include "tools/host/files/written_files.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -159,11 +161,15 @@ TEST_F(WrittenFilesTest, WhatHasComeMeanwhileIsLeftAloneUnlessItHasTheMark) {
     EXPECT_EQ(written.why().empty(), bool(written));
     return bool(written);
   };
+  const std::string beside = fmt::format("m.{}", ::getpid());
   EXPECT_FALSE(written_after([&] { put("m", "theirs"); }));
   EXPECT_EQ(content("m"), "theirs");
+  EXPECT_EQ(content(beside + ".new"), "# a note\nours") << "it is not lost";
   fs::remove(file("m"));
   EXPECT_FALSE(written_after([&] { fs::create_symlink(file("new"), file("m")); }));
-  EXPECT_EQ(count(), 1) << "the link, and not what it leads to";
+  EXPECT_FALSE(fs::exists(file("new"))) << "the link, and not what it leads to";
+  EXPECT_EQ(content(beside + ".2.new"), "# a note\nours");
+  EXPECT_EQ(count(), 3);
   fs::remove(file("m"));
   EXPECT_TRUE(written_after([&] { put("m", "# a note\nby another run"); }));
   EXPECT_EQ(content("m"), "# a note\nours");

@@ -111,13 +111,21 @@ NewFile::~NewFile() {
   if (!beside_.empty()) file_system::remove(beside_);
 }
 
-/// Creates the new file with the rights of the file that it is to replace.
+/// Creates the new file with the rights of the file that it is to replace. One of this name may be there: what could not be put in
+/// its place before.
 int NewFile::create(const Destination& destination) {
-  const std::string beside = fmt::format("{}.{}.new", destination.path, file_system::process_number());
-  fd_ = file_system::create_new(beside, destination.path);
-  if (fd_ < 0) return errno;
-  beside_ = beside;
-  return 0;
+  constexpr int kNames = 100;
+  const std::string name = fmt::format("{}.{}", destination.path, file_system::process_number());
+  for (int i = 1; i <= kNames; ++i) {
+    const std::string beside = i == 1 ? name + ".new" : fmt::format("{}.{}.new", name, i);
+    fd_ = file_system::create_new(beside, destination.path);
+    if (fd_ >= 0) {
+      beside_ = beside;
+      return 0;
+    }
+    if (errno != EEXIST) break;
+  }
+  return errno;
 }
 
 int NewFile::put(const Destination& destination) {
