@@ -369,6 +369,7 @@ class RaceFinder {
       }
     }
     for (std::size_t step = 0; step < main_.steps.size() && !waiter_.asks_to_end(); ++step) {
+      if (is_unread(op(step))) continue;
       if (op(step).instruction->structure == Structure::For) find_shared_index(step);
       if (op(step).instruction->structure == Structure::Jump) find_shared_count(step);
     }

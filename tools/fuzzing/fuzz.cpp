@@ -65,8 +65,8 @@ class Search {
   struct Kept {
     TrialBench::Snapshot state;
     Trial trial;
-    Time settled =
-        0;  ///< since the last stimulus was over, to the nanosecond: an instruction ends after the time it was run to
+    /// Since the last stimulus was over, to the nanosecond: an instruction ends after the time it was run to.
+    Time settled = 0;
   };
 
   /// What comes over a port is tried there. A panel at a port in PPI mode sets memory.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/model/errors.hpp"

@@ -28,12 +28,13 @@ bool runs_a_pass(const Program& program, const Op& loop) {
   return is_constant(loop[1]) && is_constant(loop[2]) && value(loop[1]) <= value(loop[2]);
 }
 
-/// From a DISI to the last op that may follow it while interrupts are not surely enabled again; of loops all.
+/// From a DISI to the last op that may follow it while interrupts are not surely enabled again; of loops all. `seen` gets the
+/// ops of it.
 DisabledStretch until_enabled(const Program& program, const ControlFlow& flow, KeptAway& enabled, const Execution& execution,
-                              std::uint32_t disi) {
+                              std::uint32_t disi, std::set<std::uint32_t>& seen) {
   const Routine& routine = flow.routines[execution.routine];
   DisabledStretch stretch{disi, disi + 1};
-  std::set<std::uint32_t> seen{disi};
+  seen.insert(disi);
   for (std::vector<std::uint32_t> waiting{disi}; !waiting.empty();) {
     const std::uint32_t op = waiting.back();
     waiting.pop_back();
@@ -163,10 +164,14 @@ std::optional<std::vector<DisabledStretch>> disabled_stretches(const Program& pr
   const InterruptGate gate = gate_of_all_interrupts();
   KeptAway enabled(program, flow, nothing, {gate.closes, gate.opens});
   std::vector<DisabledStretch> all;
+  std::set<std::uint32_t> within;  // ops of stretches: that of a DISI there is a part of one
   for (const std::uint32_t disi : disabling) {
     const Execution execution{flow.nodes[disi].routine, 0, true};
     if (!enabled.behind(execution)) return {};
-    all.push_back(until_enabled(program, flow, enabled, execution, disi));
+    if (within.contains(disi)) continue;
+    std::set<std::uint32_t> seen;
+    all.push_back(until_enabled(program, flow, enabled, execution, disi, seen));
+    within.merge(seen);
   }
   return all;
 }

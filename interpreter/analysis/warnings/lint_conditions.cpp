@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "interpreter/analysis/warnings/lint.hpp"
 #include "interpreter/analysis/warnings/lint_ops.hpp"
 #include "interpreter/base/text/among.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/model/contact_form.hpp"
 #include "interpreter/program/checking/warnings.hpp"
 
@@ -191,6 +193,11 @@ std::optional<std::int64_t> reset_at(const Program& program, const Ways& ways, s
   return lowest;
 }
 
+/// Whether an operand is written as a name, and no number.
+bool is_symbol(std::string_view text) {
+  return !text.empty() && (stl::is_letter(text[0]) || text[0] == '_' || text[0] == '"' || !stl::is_ascii(text));
+}
+
 }  // namespace
 
 void find_constant_comparisons(const Facts& facts, stl::Diagnostics& diagnostics) {
@@ -210,6 +217,7 @@ void find_constant_comparisons(const Facts& facts, stl::Diagnostics& diagnostics
     const auto always = same_for_all(form, a, b);
     if (!always) continue;
     const bool both = a.least == a.most && b.least == b.most;
+    if (both && (is_symbol(written(program, i, 0)) || is_symbol(written(program, i, 1)))) continue;  // a switch of the project
     diagnostics.push_back(
         warn(Warning::ConstantContact, place(program, i),
              fmt::format("{}: this contact never {}", both ? "it compares two constants" : range_text(width),

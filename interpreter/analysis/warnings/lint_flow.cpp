@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -118,13 +119,17 @@ std::optional<std::uint32_t> overwriting(const Facts& facts, Paths& paths, std::
   return {};
 }
 
-/// Whether no other instruction works on the timer of an op. Of two, each may be executed in the scans in which the other
-/// one is not.
-bool is_only_one(const Program& program, const Op& timer) {
-  return std::ranges::count_if(program.ops, [&](const Op& op) {
-           return op.instruction->hidden == Hidden::Number && op.instruction->operand[0].areas == set_of(Area::T) &&
-                  !op[0].unread() && op[2].at == timer[2].at;
-         }) == 1;
+bool runs_timer(const Op& op) {
+  return op.instruction->hidden == Hidden::Number && op.instruction->operand[0].areas == set_of(Area::T) && !op[0].unread();
+}
+
+/// How many instructions work on each timer, by its number. Of two, each may be executed in the scans in which the other one is
+/// not.
+std::map<std::uint32_t, std::uint32_t> uses_of_timers(const Program& program) {
+  std::map<std::uint32_t, std::uint32_t> uses;
+  for (const Op& op : program.ops)
+    if (runs_timer(op)) ++uses[op[2].at];
+  return uses;
 }
 
 /// The only CALL of the subroutine that an op is in, if it depends on a condition. A segment executes nothing while it is
@@ -194,6 +199,7 @@ void find_repeated_edges(const Facts& facts, stl::Diagnostics& diagnostics) {
 void find_skipped_timers(const Facts& facts, stl::Diagnostics& diagnostics) {
   const Program& program = facts.program;
   const Calls calls = calls_of(program, facts.flow);
+  auto uses = uses_of_timers(program);
   std::vector<std::uint32_t> loops;      // the FOR around an op
   std::uint32_t jump = 0, leads_to = 0;  // the jump forwards that goes farthest
   for (std::uint32_t op = 0; op < program.ops.size(); ++op) {
@@ -204,9 +210,9 @@ void find_skipped_timers(const Facts& facts, stl::Diagnostics& diagnostics) {
     }
     if (structure_of(now) == Structure::For) loops.push_back(op);
     if (structure_of(now) == Structure::Next && !loops.empty()) loops.pop_back();
-    const bool times = now.instruction->hidden == Hidden::Number && now.instruction->operand[0].areas == set_of(Area::T);
-    if (!times || now[0].unread() || timer_base(now[2].at).base != 100 * kMillisecond) continue;
-    const auto call = is_only_one(program, now) ? call_under_a_condition(facts, calls, op) : std::nullopt;
+    if (!runs_timer(now) || timer_base(now[2].at).base != 100 * kMillisecond) continue;
+    const bool counts_hours = now.instruction->mnemonic == "TONR";  // it may be meant to count only while it is called
+    const auto call = uses[now[2].at] == 1 && !counts_hours ? call_under_a_condition(facts, calls, op) : std::nullopt;
     if (call)
       diagnostics.push_back(
           warn(Warning::SkippedTimer, place(program, op),

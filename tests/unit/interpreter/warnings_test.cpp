@@ -160,7 +160,9 @@ TEST(SkippedTimer, IsOneInASubroutineThatIsCalledUnderACondition) {
   EXPECT_EQ(warnings_of("LD SM0.0\nCALL 0\n" + timer), "");
   EXPECT_EQ(warnings_of("LD I0.0\nCALL 0\nLDN I0.0\nCALL 0\n" + timer), "") << "one of both calls it";
   EXPECT_EQ(warnings_of("LD I0.0\nCALL 0\nMEND\nSBR 0\nLD I0.1\nTON T33, 10\nRET\n"), "");
-  EXPECT_EQ(warnings_of("LD I0.0\nCALL 0\nMEND\nSBR 0\nCALL 1\nRET\nSBR 1\nLD I0.1\nTON T33, 10\nRET\n"), "");
+  EXPECT_EQ(warnings_of("LD I0.0\nCALL 0\nMEND\nSBR 0\nLD SM0.0\nCALL 1\nRET\nSBR 1\nLD I0.1\nTON T37, 10\nRET\n"), "")
+      << "only the CALL of its own routine is looked at";
+  EXPECT_EQ(warnings_of("LD I0.0\nCALL 0\nMEND\nSBR 0\nLD I0.1\nTONR T5, 10\nRET\n"), "") << "it may count hours";
   EXPECT_EQ(warnings_of("LSCR S0.0\nLD SM0.0\nCALL 0\nSCRE\n" + timer), "") << "while the step is on";
 }
 

@@ -27,7 +27,7 @@ std::string without_comment(const std::string& line) {
 bool is_crc(std::string_view word) { return stl::lower_case(word) == "crc"; }
 
 /// Other verbs take the files of a project one after the other; here frames follow the PROGRAM.
-bool is_file(const std::string& word) { return word.find('.') != std::string::npos && host_files().exists(word); }
+bool names_a_file(const std::string& word) { return word.find('.') != std::string::npos && host_files().exists(word); }
 
 /// A frame in hex; `crc` as its last word appends the Modbus CRC, as in the debugger.
 serial::ParsedFrame parse_hex_with_crc(std::string_view text) {
@@ -73,7 +73,7 @@ Result<std::vector<serial::Frame>> FrameOptions::read() const {
     if (option != hex_ && option != text_) continue;
     const bool is_text = option == text_;
     const std::string& next = is_text ? *text++ : *frame++;
-    if (!is_text && is_file(next))
+    if (!is_text && names_a_file(next))
       return trouble("'{}' is a file, and a frame in hex is expected here; {}", next, how_to_give(next));
     written.push_back({next, fmt::format("{} '{}'", is_text ? "--text" : "frame", stl::shortened(next)),
                        is_text ? parse_text : parse_hex_with_crc});

@@ -143,9 +143,9 @@ export async function find_condition(condition: string): Promise<void> {
   if (set.error !== undefined || !set.json) return;
   const number = Math.max(...set.json.stops.map((one) => one.number));
   const length = past.in_the_past ? past.newest_ns - past.now_ns : kLongestRun, end_ns = past.now_ns + length;
-  const run = await run_to(end_ns, is_wanted);
+  const run = is_wanted() ? await run_to(end_ns, is_wanted) : undefined;
   await command(`delete ${number}`);
-  if (!is_wanted() || !kPassed.has(run.json?.stopped ?? '')) return;  // found, paused, or it cannot run so far: that is said
+  if (!is_wanted() || !kPassed.has(run?.json?.stopped ?? '')) return;  // found, paused, or it cannot run so far: that is said
   if (past.in_the_past) await move(`at ${moment_word(past.now_ns)}`);
   notice(`${condition} does not come to hold within ${duration_text(length)}`);
 }
