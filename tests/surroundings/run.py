@@ -691,7 +691,7 @@ class Files(Case):
         self.eventually(lambda: os.path.lexists(link), "it does not serve")
         number = path.stat().st_ino
         again = ["run", SLAVE, "--for", "10ms", "--capture", path]
-        self.assertIn(b"another program has it open to write", self.ends(UNUSABLE, *again).stderr)
+        self.assertIn(b"another program has it open for writing", self.ends(UNUSABLE, *again).stderr)
         first.send_signal(signal.SIGTERM)
         first.communicate(timeout=LONG)
         self.assertEqual(path.stat().st_ino, number)

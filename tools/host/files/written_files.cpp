@@ -96,7 +96,7 @@ Result<Destination> WrittenFiles::claim(std::string_view option, const std::stri
     return refuse(fmt::format("{} exists and is not {}; it is left alone", path, destination.kind.name));
   if (holds_something && replace == Replace::Never) return refuse(fmt::format("{} exists", path));
   if (found && file_system::is_being_written(path))
-    return refuse(fmt::format("{} {}: another program has it open to write; close it there, or name another", option, path));
+    return refuse(fmt::format("{} {}: another program has it open for writing; close it there, or name another", option, path));
   if (const int error = file_system::why_no_new_file(folder_of(path)); error != 0)
     return refuse(fmt::format("cannot write {}: {}", path,
                               error == ENOENT ? fmt::format("there is no folder {}", folder_of(path)) : error_text(error)));

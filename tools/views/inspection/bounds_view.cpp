@@ -61,7 +61,7 @@ std::string events_in_words(const std::vector<std::uint8_t>& events) {
 std::string slowest_text(const std::optional<Time>& time) { return time ? ms(*time) : "no bound with the slowest times"; }
 
 std::string why_no_bound_with_interrupts(const Bounds& bounds) {
-  if (bounds.events.front().may_stay_disabled) return "they may stay disabled, which has no bound";
+  if (bounds.events.front().may_stay_disabled) return "they may stay disabled for any time";
   std::vector<std::uint8_t> unknown;
   for (const Bounds::OfEvent& event : bounds.events)
     if (!event.period) unknown.push_back(event.event);
@@ -94,7 +94,7 @@ std::string routines_text(const Inspection& inspection, const Both& both) {
 }
 
 std::string why_no_latency(const Bounds::OfEvent& event) {
-  if (event.may_stay_disabled) return "begins when the program has enabled interrupts again, which has no bound";
+  if (event.may_stay_disabled) return "begins when the program has enabled interrupts again, and nothing says when";
   if (event.before.empty()) return "when it begins has no bound: the interrupts that are served first leave no time for it";
   if (event.before == std::vector{event.event})
     return "when it begins has no bound: as many as come before it are served first";
