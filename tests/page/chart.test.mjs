@@ -141,6 +141,7 @@ test('a pulse train counts in simulated time, whatever the pace', async () => {
   await rendered(other);
   await other.fill('[aria-label="Pulses a second at I0.0"]', '100');
   await other.press('[aria-label="Pulses a second at I0.0"]', 'Enter');
+  await other.waitForSelector('.notice', { state: 'detached' });
   await input.click();
   await other.waitForSelector('[aria-label^="Input I0.0"][aria-checked=true]');
   await picture(other, 'chart_pulses');

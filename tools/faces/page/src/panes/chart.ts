@@ -225,7 +225,8 @@ function hertz_field(row: PointRow): Part {
   return h('input', { class: 'hertz', ref: (field: HTMLInputElement) => focus_field(field, row.address), value: `${row.hertz} Hz`, 'aria-label': `Pulses a second at ${row.address}`, title: `Pulses a second, up to ${kMostHertz}`, autocomplete: 'off', spellcheck: 'false',
     onchange: (event: Event) => {
       const field = event.target as HTMLInputElement;
-      if (!set_hertz(row, field.value)) notice(`'${field.value}' is not a number of pulses a second from 0.01 to ${kMostHertz}`, 'error');
+      if (!set_hertz(row, field.value)) notice(`'${field.value}' is not a number of pulses a second from 0.01 to ${kMostHertz}`, 'error', 'hertz');
+      else if (state.notice?.of === 'hertz') notice('');
       field.value = `${row.hertz} Hz`;
     } });
 }
