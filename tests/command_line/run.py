@@ -3882,6 +3882,16 @@ class Files(Case):
         self.assertIn("there is no option --cup; did you mean --cpu?", self.ends(UNUSABLE, "check", SLAVE, "--cup", "224").stderr)
         self.assertIn("there is no option --jsno; did you mean --json?", self.ends(UNUSABLE, "send", SLAVE, "01", "--jsno").stderr)
 
+    def test_files_of_a_project_are_words_where_nothing_else_stands_behind_the_program(self):
+        for verb in ("check", "run", "debug", "view"):
+            self.assertIn("there is no option --with here; other files of the project are named behind PROGRAM",
+                          self.ends(UNUSABLE, verb, SLAVE, "--with", "symbols.txt").stderr)
+
+    def test_quotes_that_the_console_of_windows_hands_on(self):
+        self.assertIn("\'VW0 begins with a single quote", self.ends(UNUSABLE, "run", SLAVE, "\'VW0", ">", "3\'").stderr)
+        self.assertIn('C:\\plant" has a double quote in it', self.ends(UNUSABLE, "run", SLAVE, 'C:\\plant"').stderr)
+        self.assertNotIn("quote", self.ends(UNUSABLE, "run", SLAVE, "--set", 'VB0="a"b').stderr)
+
     def test_what_is_done_at_the_instant_of_a_request_is_recorded_in_front_of_it(self):
         recorded = self.folder / "at_once.yaml"
         self.ends(FINE, "debug", SLAVE, "-x", "continue 100ms; send 01 03 00 0a 00 01 crc; set VW3300=7; fault parity:character=2,exchange=2; continue; "

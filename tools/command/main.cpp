@@ -66,13 +66,25 @@ void add_verbs(CLI::App& app, std::string_view asked, int& exit_code) {
   _exit(kCheckFailed);
 }
 
-/// Single quotes, as pages for Linux have them, hold nothing together in the console of Windows: it hands them on.
-void hint_at_single_quotes(const std::vector<std::string>& words) {
-  const auto quoted = std::ranges::find_if(words, [](const std::string& word) { return word.starts_with('\''); });
-  if (quoted == words.end()) return;
-  print_note(
-      fmt::format("{} begins with a single quote: the console of Windows holds words together with double quotes only",
-                  stl::shortened(*quoted)));
+/// Quotation marks that the console of Windows hands on: single ones, as pages for Linux have them, hold nothing together
+/// there, and a \ makes the closing one behind it a part of the word, as in "C:\plant\".
+struct StrayQuote {
+  bool (*stands_in)(const std::string& word);
+  std::string_view hint;  // behind the word
+};
+
+constexpr StrayQuote kStrayQuotes[] = {
+    {[](const std::string& word) { return word.starts_with('\''); },
+     "begins with a single quote: the console of Windows holds words together with double quotes only"},
+    {[](const std::string& word) { return std::ranges::count(word, '"') % 2 != 0; },
+     "has a double quote in it: the console of Windows takes one for a part of the word where a \\ stands in front of it; "
+     "leave that \\ out"},
+};
+
+void hint_at_stray_quotes(const std::vector<std::string>& words) {
+  for (const StrayQuote& quote : kStrayQuotes)
+    if (const auto word = std::ranges::find_if(words, quote.stands_in); word != words.end())
+      print_note(fmt::format("{} {}", stl::shortened(*word), quote.hint));
 }
 
 int run_command(const std::vector<std::string>& words) {
@@ -122,6 +134,6 @@ int main(int argc, char** argv) {
   end_at_interruption(end_interrupted);
   const std::vector<std::string> words = words_of_command_line(argc, argv);
   const int exit_code = run_command(words);
-  if (exit_code == kUnusable) hint_at_single_quotes(words);
+  if (exit_code == kUnusable) hint_at_stray_quotes(words);
   return close_standard_streams(exit_code);
 }

@@ -59,14 +59,23 @@ std::string not_an_option(const std::string& option, const CLI::App& app, bool a
                      stl::shortened(option), any_verb ? "the verb" : "one", meant_option(option, app));
 }
 
+/// Verbs that take frames or actions behind PROGRAM have `--with` for the other files of a project; for the others they stand
+/// there as words.
+std::string files_are_words(std::string_view option, const CLI::App& verb) {
+  const CLI::Option* program = verb.get_option_no_throw("PROGRAM");
+  const bool takes_files = program != nullptr && program->get_items_expected_max() > 1;
+  return option == "--with" && takes_files ? " here; other files of the project are named behind PROGRAM, without an option" : "";
+}
+
 /// Of words that a verb does not take: `there is no option --cup; did you mean --cpu?`, or that one is too many.
 std::string not_expected(const CLI::App& verb) {
   const std::vector<std::string> words = verb.remaining();
   const auto option = std::ranges::find_if(words, [](const std::string& word) { return word.starts_with("-"); });
   if (option == words.end())
     return fmt::format("'{}' is one word too many here", stl::shortened(words.empty() ? "" : words.back()));
-  return fmt::format("there is no option {}{}", stl::shortened(option->substr(0, option->find('='))),
-                     meant_option(*option, verb));
+  const std::string name = option->substr(0, option->find('='));
+  const std::string files = files_are_words(name, verb);
+  return fmt::format("there is no option {}{}", stl::shortened(name), files.empty() ? meant_option(*option, verb) : files);
 }
 
 /// Of CLI11 what stands around a name or a value in a message, and what we say instead: `{0}` is in front of `between`,
