@@ -1,4 +1,4 @@
-# For tools/demo and tools/test: the packages of Debian 12 that the build needs, and how to get them.
+# For the scripts in tools: the packages of Debian 12 that they need and how to get them, and what several of them do.
 # Sourced by bash from the top of the tree.
 
 # What must be there, each behind the command or file that shows that it is.
@@ -154,7 +154,7 @@ for_release() {
   export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || date +%s)}
   umask 022
   unset CXXFLAGS LDFLAGS  # those of this computer are not for others
-  for_debian=(-DBUILD_TESTING=OFF "-DCMAKE_CXX_FLAGS=\"-ffile-prefix-map=$PWD=s7200\"")
+  for_debian=("-DCMAKE_CXX_FLAGS=\"-ffile-prefix-map=$PWD=s7200\"")
 }
 
 # build_page BUILD: the page with its engine in one file, which is the same for all builds.
@@ -172,8 +172,8 @@ make_deb() {
   ls "$1"/packages/s7200_*.deb
 }
 
-# copy_licences FOLDER PACKAGE...: what the authors of libraries want to be told to whoever gets them, as Debian's packages have it: of
-# those that are headers, of those in the page's engine, and of others.
+# copy_licences FOLDER PACKAGE...: the licences of libraries, as Debian's packages have them: of those that are headers, of those in the
+# page's engine, and of others.
 copy_licences() {
   local into=$1 package
   shift

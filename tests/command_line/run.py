@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|inspect|compare|fuzz|files|scenarios|input|readme|times|systems"""
+"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|inspect|coverage|compare|fuzz|files|scenarios|input|readme|times|systems"""
 import base64
 import contextlib
 import csv

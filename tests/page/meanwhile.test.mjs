@@ -349,7 +349,7 @@ test('a value that is typed while another is being written stays', async () => {
 });
 
 test('a chart that was kept in another format is signed', () => {
-  kept.set('s7200.chart', JSON.stringify([{ address: 'VB0', format: 'octal' }, { address: 'VB1', format: 'hex' }, null, { format: 'hex' }]));
+  kept.set('s7200.chart', JSON.stringify([{ address: 'VB0', format: 'unknown' }, { address: 'VB1', format: 'hex' }, null, { format: 'hex' }]));
   page.load_chart();
   assert.deepEqual(state.chart.map((row) => row.format), ['signed', 'hex']);
 });

@@ -72,13 +72,13 @@ class SerialDevice {
   /// is gone.
   Result<std::size_t> write(std::span<const std::uint8_t> bytes);
 
-  /// Forgets what has come in and was not read.
-  void discard_input();
-
  private:
   struct System;  // the device as the system sees it
 
   SerialDevice();
+
+  /// Forgets what has come in and was not read. For a device that is being opened: nobody reads yet.
+  void discard_input();
 
   std::unique_ptr<System> system_;
   SerialFormat format_;

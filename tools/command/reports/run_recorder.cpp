@@ -1,8 +1,11 @@
 #include "tools/command/reports/run_recorder.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/time.hpp"
 #include "tools/command/reports/reported_system.hpp"
 #include "tools/command/terminal/terminal.hpp"
 
@@ -36,6 +39,9 @@ void RunRecorder::listen_to(SimulatedSlave& slave) {
 }
 
 bool RunRecorder::write(const ReportOption& report, std::string_view verb, const Repairs& repairs) const {
+  if (journal_.is_over() && report.wanted())
+    print_note(fmt::format("--report keeps {} frames and values from outside; there were more, and it ends at {}",
+                           journal_.recording().actions.size(), format_duration(journal_.recording().end.time)));
   return write_run(report, verb, rig_, path_, spot_, journal_.recording(), repairs);
 }
 

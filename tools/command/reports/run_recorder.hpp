@@ -33,7 +33,7 @@ class RunRecorder final {
   /// Writes down what that master asks.
   void listen_to(SimulatedSlave& slave);
 
-  /// Writes the run so far. False after a message.
+  /// Writes the run so far, or as far as it was kept, which is said. False after a message.
   bool write(const ReportOption& report, std::string_view verb, const Repairs& repairs) const;
 
  private:

@@ -43,7 +43,7 @@ Result<std::string> read_file(const std::string& path) {
                                 FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr, OPEN_EXISTING,
                                 FILE_FLAG_SEQUENTIAL_SCAN, nullptr));
   const bool is_pattern = path.find_first_of("*?") != std::string::npos;
-  if (!file) return Trouble{is_pattern ? "no file fits this pattern" : words_of(GetLastError())};
+  if (!file) return Trouble{is_pattern ? "no file fits this pattern, or quotation marks keep it from being one" : words_of(GetLastError())};
   std::string bytes;
   for (std::array<char, 65536> piece{};;) {
     DWORD count = 0;

@@ -15,8 +15,8 @@ std::atomic<bool> output_lost = false;
 std::atomic<void (*)()> restoring = nullptr;
 std::atomic<void (*)(int)> ending = nullptr;  // until an interruption is only noted
 
-/// Windows ends the process some seconds after the console was closed, the user logs off or the computer shuts down, and at
-/// once when this returns: it waits, so that what was asked for is completed meanwhile.
+/// Windows ends the process some seconds after the console was closed, and at once when this returns: it waits, so that what
+/// was asked for is completed meanwhile. Of a logoff and a shutdown only services are told (HandlerRoutine, Microsoft).
 BOOL WINAPI note(DWORD event) {
   if (void (*const end)(int) = ending) end(static_cast<int>(event));
   const bool first = noted_event.exchange(event) == kNone;
@@ -64,9 +64,6 @@ std::string_view interruption_text() {
       return "interrupted by Ctrl-Break";
     case CTRL_CLOSE_EVENT:
       return "interrupted: the console was closed";
-    case CTRL_LOGOFF_EVENT:
-    case CTRL_SHUTDOWN_EVENT:
-      return "interrupted: the computer shuts down";
     default:
       return "interrupted by Ctrl-C";
   }

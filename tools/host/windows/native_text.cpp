@@ -18,7 +18,8 @@ struct KnownError {
   std::string_view words;
 };
 
-/// Those that a user of the command meets, in our words.
+/// Those that a user of the command meets: in the words of Linux where the same happens there, so that messages are alike, else
+/// in ours.
 constexpr std::array kKnownErrors{
     KnownError{ERROR_FILE_NOT_FOUND, ENOENT, "No such file or directory"},
     KnownError{ERROR_PATH_NOT_FOUND, ENOENT, "No such file or directory"},

@@ -2,8 +2,9 @@
 // name: they have macros for common words.
 #pragma once
 
+#include <winsock2.h>
+// After winsock2.h, in place of which it else includes the predecessor.
 #include <windows.h>
-#include <winsock2.h>  // before windows.h, which else includes its predecessor
 
 #include <string>
 #include <string_view>

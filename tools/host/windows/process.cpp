@@ -25,6 +25,22 @@ std::wstring quoted(const std::string& word) {
   return text.append(backslashes, L'\\') + L"\"";
 }
 
+/// Of each word of a command line, whether it has quotation marks, which CommandLineToArgvW takes away.
+std::vector<bool> are_quoted(std::wstring_view line) {
+  std::vector<bool> result;
+  bool in_word = false, in_quotes = false;
+  std::size_t backslashes = 0;
+  for (const wchar_t c : line) {
+    const bool is_mark = c == L'"' && backslashes % 2 == 0;
+    backslashes = c == L'\\' ? backslashes + 1 : 0;
+    if (is_mark) in_quotes = !in_quotes;
+    const bool was_in_word = std::exchange(in_word, in_quotes || is_mark || (c != L' ' && c != L'\t'));
+    if (in_word && !was_in_word) result.push_back(false);
+    if (is_mark) result.back() = true;
+  }
+  return result;
+}
+
 /// The files that a word such as *.awl stands for, in the order of their names; the word itself if there is none.
 std::vector<std::string> files_meant(const std::string& word) {
   const std::string folder = word.substr(0, word.find_last_of("/\\:") + 1);
@@ -44,14 +60,23 @@ std::vector<std::string> files_meant(const std::string& word) {
 
 }  // namespace
 
-/// The console of Windows leaves it to programs to look for the files that a pattern stands for. The words that the runtime
-/// hands to main() are in the code page of the system, which lacks most characters.
+/// The console of Windows leaves it to programs to look for the files that a pattern stands for; one in quotation marks stands
+/// for itself, as in shells, unless a blank in its path needs them. The words that the runtime hands to main() are in the code page of the system, which lacks most
+/// characters.
 std::vector<std::string> words_of_command_line(int, char**) {
   int count = 0;
   LPWSTR* const words = CommandLineToArgvW(GetCommandLineW(), &count);
+  const std::vector<bool> quoted = are_quoted(GetCommandLineW());
   std::vector<std::string> result;
-  for (int i = 0; i < count; ++i)
-    for (std::string& word : files_meant(utf8(words[i]))) result.push_back(std::move(word));
+  for (int i = 0; i < count; ++i) {
+    std::string word = utf8(words[i]);
+    const auto place = static_cast<std::size_t>(i);
+    if (place < quoted.size() && quoted[place] && word.find(' ') == std::string::npos) {
+      result.push_back(std::move(word));
+    } else {
+      for (std::string& file : files_meant(word)) result.push_back(std::move(file));
+    }
+  }
   LocalFree(words);
   return result;
 }

@@ -57,6 +57,21 @@ std::string why_not_opened(DWORD error) {
   }
 }
 
+/// Why a port that was open does nothing any more. Drivers of adapters differ in what they say when those are pulled out.
+std::string why_gone(DWORD error) {
+  switch (error) {
+    case ERROR_HANDLE_EOF:
+    case ERROR_ACCESS_DENIED:
+    case ERROR_OPERATION_ABORTED:
+    case ERROR_BAD_COMMAND:
+    case ERROR_GEN_FAILURE:
+    case ERROR_DEVICE_REMOVED:
+      return "it was unplugged";
+    default:
+      return words_of(error);
+  }
+}
+
 DCB settings_of(const SerialFormat& format) {
   DCB settings{};
   settings.DCBlength = sizeof settings;
@@ -152,10 +167,7 @@ struct SerialDevice::System {
 
   void gone(DWORD error) {
     const std::lock_guard lock(mutex);
-    why_gone = error == ERROR_HANDLE_EOF || error == ERROR_ACCESS_DENIED || error == ERROR_OPERATION_ABORTED ||
-                       error == ERROR_BAD_COMMAND || error == ERROR_GEN_FAILURE || error == ERROR_DEVICE_REMOVED
-                   ? "it was unplugged"
-                   : words_of(error);
+    end_of_port = why_gone(error);
     SetEvent(readable.get());
   }
 
@@ -168,7 +180,7 @@ struct SerialDevice::System {
   std::vector<std::uint8_t> on_the_way{};
   std::mutex mutex{};  ///< guards the two that follow
   std::deque<Character> come_in{};
-  std::string why_gone{};
+  std::string end_of_port{};  ///< why it does nothing any more
   std::thread reader{};
 };
 
@@ -234,17 +246,15 @@ Result<> SerialDevice::read(std::vector<Character>& characters) {
   const auto count = static_cast<std::ptrdiff_t>(std::min(system.come_in.size(), kMostAtOnce));
   characters.insert(characters.end(), system.come_in.begin(), system.come_in.begin() + count);
   system.come_in.erase(system.come_in.begin(), system.come_in.begin() + count);
-  if (system.come_in.empty() && system.why_gone.empty()) ResetEvent(system.readable.get());
-  if (count > 0 || system.why_gone.empty()) return {};
-  return Trouble{system.why_gone};
+  if (system.come_in.empty() && system.end_of_port.empty()) ResetEvent(system.readable.get());
+  if (count > 0 || system.end_of_port.empty()) return {};
+  return Trouble{system.end_of_port};
 }
 
 Result<std::size_t> SerialDevice::write(std::span<const std::uint8_t> bytes) {
   System& system = *system_;
   DWORD count = 0;
-  const auto fail = [](DWORD error) -> Result<std::size_t> {
-    return Trouble{error == ERROR_ACCESS_DENIED || error == ERROR_BAD_COMMAND ? "it was unplugged" : words_of(error)};
-  };
+  const auto fail = [](DWORD error) -> Result<std::size_t> { return Trouble{why_gone(error)}; };
   if (system.is_writing) {
     if (GetOverlappedResult(system.port.get(), &system.writing, &count, FALSE) == 0)
       return GetLastError() == ERROR_IO_INCOMPLETE ? Result<std::size_t>(0) : fail(GetLastError());
@@ -270,7 +280,7 @@ void SerialDevice::discard_input() {
   PurgeComm(system_->port.get(), PURGE_RXCLEAR);
   const std::lock_guard lock(system_->mutex);
   system_->come_in.clear();
-  if (system_->why_gone.empty()) ResetEvent(system_->readable.get());
+  if (system_->end_of_port.empty()) ResetEvent(system_->readable.get());
 }
 
 }  // namespace s7200::tools

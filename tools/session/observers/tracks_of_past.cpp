@@ -27,8 +27,10 @@
 namespace s7200::tools {
 namespace {
 
+/// Of each TrackKind.
 constexpr std::array<std::string_view, 9> kWords{"characters", "frames", "interrupts", "scans", "routines",
                                                  "networks",   "events", "errors",     "value"};
+static_assert(static_cast<std::size_t>(TrackKind::Value) + 1 == kWords.size());
 
 /// All tracks of all stations.
 class Tracks {
