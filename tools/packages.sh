@@ -123,6 +123,16 @@ install_missing_packages() {
   fi
 }
 
+# takes_only GIVEN ALLOWED...: ends a script that was given another word, with what stands in its head.
+takes_only() {
+  local given=$1 allowed
+  shift
+  for allowed in "$@"; do if [ "$given" = "$allowed" ]; then return; fi; done
+  echo "error: $0 does not take '$given'" >&2
+  sed -n '2,/^[^#]/s/^# \?//p' "$(basename "$0" | sed 's|^|tools/|')" >&2
+  exit 2
+}
+
 # own_apt_get FOLDER OPTION...: sets apt_get to an apt-get with lists of its own in a folder, which changes nothing of this computer.
 own_apt_get() {
   local folder=$1 option

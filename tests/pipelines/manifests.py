@@ -72,5 +72,9 @@ class Manifests(Case):
         done = self.ends(1, SOURCE / "tools/manifests", self.archive, "https://example.org/", self.folder)
         self.assertRegex(done.stderr, re.escape(f"has no {NAME}/s7200.exe"))
 
+    def test_a_zip_of_another_name_is_refused(self):
+        done = self.ends(1, SOURCE / "tools/manifests", self.archive.rename(self.folder / "s7200.zip"), "https://example.org/", self.folder)
+        self.assertIn("s7200.zip is not called s7200-VERSION-windows.zip", done.stderr)
+
 
 main()

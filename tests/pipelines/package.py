@@ -27,6 +27,12 @@ class Package(Case):
         self.ends(FINE, "dpkg-deb", "-x", self.package, self.folder)
         return self.folder / "usr"
 
+    def test_a_script_that_makes_packages_refuses_a_word_that_it_does_not_know(self):
+        for script in ("release", "build_arm64", "build_windows"):
+            done = self.ends(2, SOURCE / "tools" / script, "--pack")
+            self.assertIn(f"{script} does not take '--pack'", done.stderr)
+            self.assertIn(f"tools/{script} --packed", done.stderr)
+
     def test_the_control_file_says_what_it_is_and_what_it_needs(self):
         shown = self.ends(FINE, "dpkg-deb", "-I", self.package).stdout
         version = re.search(r"project\(s7200 VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
