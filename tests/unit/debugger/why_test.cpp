@@ -397,6 +397,25 @@ TEST(Why, AMessageThatRCVTookLeadsToTheXmtWithoutPowerFlow) {
   EXPECT_EQ(session.line(), 11u);
 }
 
+/// The flag by which RCV waits again has been switched on by what was wrong with the message.
+TEST(Why, WhatHasSwitchedTheDecidingContactIsNamedToo) {
+  constexpr std::string_view kSlave =
+      "LD SM0.1\nMOVB 9, SMB30\nMOVB 16#94, SMB87\nMOVW 5, SMW90\nMOVW 5, SMW92\nMOVB 100, SMB94\n"
+      "ATCH 0, 23\nENI\nRCV VB100, 0\nLD M0.0\nR M0.0, 1\nRCV VB100, 0\nMEND\n"  // 7
+      "INT 0\nLDB<> VB101, 2\nS M0.0, 1\nCRETI\nLDW<> VW103, 16#FFFF\nS M0.0, 1\nCRETI\n"  // 14
+      "LD SM0.0\nXMT VB100, 0\nRETI\n";
+  const auto why = [&](const std::string& frame) {
+    AtPrompt session(check_text(kSlave, "test.stl", cpu224(), default_times(cpu224())).program);
+    session("continue 50ms; break unanswered; send " + frame + "; continue");
+    return session("why");
+  };
+  const std::string other_station = why("03 41 ff ff"), wrong_sum = why("02 41 ff fe");
+  EXPECT_TRUE(has(other_station, " by S M0.0, 1 in line 16 (LDB<> VB101, 2: VB101=16#03)\n")) << other_station;
+  EXPECT_TRUE(has(wrong_sum, ": the contact in line 10 (LD M0.0: M0.0=1)\n")) << wrong_sum;
+  EXPECT_TRUE(has(wrong_sum, "ms  M0.0 was 1: last written at ")) << wrong_sum;
+  EXPECT_TRUE(has(wrong_sum, " by S M0.0, 1 in line 19 (LDW<> VW103, 16#FFFF: VW103=16#FFFE)\n")) << wrong_sum;
+}
+
 /// RCV takes what comes after a pause, to a CR or 10 characters.
 constexpr std::string_view kMessages =
     "LD SM0.1\nMOVB 9, SMB30\nMOVB 16#B0, SMB87\nMOVB 16#0D, SMB89\nMOVW 5, SMW90\nMOVB 10, SMB94\n"

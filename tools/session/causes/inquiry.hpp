@@ -124,6 +124,9 @@ void find_what_the_line_lost(Inquiry& inquiry);
 /// Was another station asked, and who is that? What this one's program made of it is right then.
 void find_station_asked(Inquiry& inquiry);
 
+/// What switched the bits on or off that decided about the last frame?
+void find_what_switched_contacts(Inquiry& inquiry);
+
 /// What has led to where the program stands?
 void find_what_led_here(Inquiry& inquiry);
 

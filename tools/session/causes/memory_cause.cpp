@@ -75,6 +75,14 @@ class MemoryInquiry {
     return fmt::format("{}, switched {} by {}", since, on ? "on" : "off", written_by(write, bit));
   }
 
+  /// The bits that decided the rung in which the history stands are in `next()`.
+  void look_at_rung() {
+    next_.clear();
+    LastWrite nothing;
+    nothing.moment = history_.now();
+    rung_in_front_of(nothing);
+  }
+
   const std::vector<MemoryRange>& next() const { return next_; }
 
  private:
@@ -173,7 +181,8 @@ class MemoryInquiry {
     std::vector<MemoryRange> bits;
     for (const InstructionRecord& contact : rung_decided_by(contacts)) {
       const Op& op = program().ops[contact.op];
-      if (!is_bit_contact(op) || op[0].pointer || write.by->op == contact.op) continue;
+      const bool is_itself = write.by && write.by->op == contact.op;
+      if (!is_bit_contact(op) || op[0].pointer || is_itself) continue;
       const auto bit = bit_of(op[0]);
       if (bit && std::ranges::none_of(bits, [&](const MemoryRange& one) { return is_same_place(one, *bit); }))
         bits.push_back(*bit);
@@ -305,6 +314,48 @@ std::string forced_value_text(const Cpu& cpu, const MemoryRange& range) {
   return {};
 }
 
+/// Appends a line for each step back from the bits or the memory that `inquiry` has found next to `from`, as far as there are
+/// less than kMostSteps, and one that names those that were not followed.
+void follow_back(MemoryInquiry& inquiry, History& history, std::size_t station, const std::vector<MemoryRange>& from,
+                 std::vector<std::string>& lines) {
+  std::vector<Step> steps;  // the next one last
+  const auto times_on = [](const std::vector<MemoryRange>& way, const MemoryRange& place) {
+    return std::ranges::count_if(way, [&](const MemoryRange& one) { return is_same_place(one, place); });
+  };
+  const auto add_steps = [&](const std::vector<MemoryRange>& way) {
+    for (auto place = inquiry.next().rbegin(); place != inquiry.next().rend(); ++place) {
+      const bool may_hold_itself = place->width == Width::Bit;
+      if (times_on(way, *place) < (may_hold_itself ? 2 : 1)) steps.push_back({*place, history.now(), way});
+    }
+  };
+  add_steps(from);
+  const auto name = [&](const Step& step) {
+    history.go_to(step.at);
+    const Cpu& cpu = history.station(station).cpu();
+    return fmt::format("{} was {}", named(cpu.program(), step.place), value_of(cpu, step.place));
+  };
+  const auto why = [&](const Step& step) {
+    return times_on(step.way, step.place) > 0 ? inquiry.held_since(step.place) : inquiry.who(step.place);
+  };
+  while (!inquiry.interrupted() && !steps.empty() && lines.size() < kMostSteps) {
+    Step step = std::move(steps.back());
+    steps.pop_back();
+    const std::string was = name(step);
+    if (is_input(step.place.area)) {
+      lines.push_back(was + ": an input");
+      continue;
+    }
+    lines.push_back(fmt::format("{}: {}", was, why(step)));
+    step.way.push_back(step.place);
+    add_steps(step.way);
+  }
+  if (lines.size() <= 1 || steps.empty()) return;
+  std::vector<std::string> others;
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step)
+    if (std::string other = name(*step); std::ranges::find(others, other) == others.end()) others.push_back(std::move(other));
+  lines.push_back(fmt::format("{}: not followed further back", fmt::join(others, ", ")));
+}
+
 }  // namespace
 
 std::string named(const Program& program, const MemoryRange& range) {
@@ -317,49 +368,22 @@ std::optional<std::vector<std::string>> memory_cause(History& history, std::size
   const Moment start = history.now();
   MemoryInquiry inquiry(history, station, stop_request);
   std::vector<std::string> lines{inquiry.who(range)};
-  std::vector<Step> steps;  // the next one last
-  const auto times_on = [](const std::vector<MemoryRange>& way, const MemoryRange& place) {
-    return std::ranges::count_if(way, [&](const MemoryRange& one) { return is_same_place(one, place); });
-  };
-  const auto add_steps = [&](std::vector<MemoryRange> way, const MemoryRange& from) {
-    way.push_back(from);
-    for (auto place = inquiry.next().rbegin(); place != inquiry.next().rend(); ++place) {
-      const bool may_hold_itself = place->width == Width::Bit;
-      if (times_on(way, *place) < (may_hold_itself ? 2 : 1)) steps.push_back({*place, history.now(), way});
-    }
-  };
-  add_steps({}, range);
-  const auto name = [&](const Step& step) {
-    history.go_to(step.at);
-    const Cpu& cpu = history.station(station).cpu();
-    return fmt::format("{} was {}", named(cpu.program(), step.place), value_of(cpu, step.place));
-  };
-  const auto why = [&](const Step& step) {
-    return times_on(step.way, step.place) > 0 ? inquiry.held_since(step.place) : inquiry.who(step.place);
-  };
-  while (!inquiry.interrupted() && !steps.empty() && lines.size() < kMostSteps) {
-    const Step step = steps.back();
-    steps.pop_back();
-    const std::string was = name(step);
-    if (is_input(step.place.area)) {
-      lines.push_back(was + ": an input");
-      continue;
-    }
-    lines.push_back(fmt::format("{}: {}", was, why(step)));
-    add_steps(step.way, step.place);
-  }
-  if (lines.size() > 1 && !steps.empty()) {
-    std::vector<std::string> others;
-    for (auto step = steps.rbegin(); step != steps.rend(); ++step)
-      if (std::string other = name(*step); std::ranges::find(others, other) == others.end())
-        others.push_back(std::move(other));
-    lines.push_back(fmt::format("{}: not followed further back", fmt::join(others, ", ")));
-  }
+  follow_back(inquiry, history, station, {range}, lines);
   history.go_to(start);
   if (inquiry.interrupted()) return {};
   if (const std::string forced = forced_value_text(history.station(station).cpu(), range); !forced.empty())
     lines.push_back(forced);
   return lines;
+}
+
+std::optional<std::vector<std::string>> rung_cause(History& history, std::size_t station, StopToken stop_request) {
+  const Moment start = history.now();
+  MemoryInquiry inquiry(history, station, stop_request);
+  std::vector<std::string> lines;
+  inquiry.look_at_rung();
+  follow_back(inquiry, history, station, {}, lines);
+  history.go_to(start);
+  return inquiry.interrupted() ? std::nullopt : std::optional(std::move(lines));
 }
 
 }  // namespace s7200::tools

@@ -17,6 +17,11 @@ namespace s7200::tools {
 std::optional<std::vector<std::string>> memory_cause(History& history, std::size_t station, const MemoryRange& range,
                                                      StopToken stop_request);
 
+/// Of the bits that decided the rung in which the history stands, in front of what the rung decides: `M0.0 was 1: last
+/// written at 31.066500 ms by S M0.0, 1 in line 38 (LDW<> VW107, 16#AAAA: VW107=16#FFFF)`, and so on back from there. The
+/// history stands where it stood; nothing after a stop request.
+std::optional<std::vector<std::string>> rung_cause(History& history, std::size_t station, StopToken stop_request);
+
 /// `Conveyor (Q0.1)`, `Q0.1` without a symbol.
 std::string named(const Program& program, const MemoryRange& range);
 

@@ -47,6 +47,7 @@ DecisionSearch find_last_decision(History& history, std::size_t station, Time ho
     find_characters_lost(inquiry, named);
     find_what_the_line_lost(inquiry);
     find_station_asked(inquiry);
+    find_what_switched_contacts(inquiry);
     find_what_led_here(inquiry);
   }
   history.go_to(start);
