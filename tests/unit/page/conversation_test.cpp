@@ -27,7 +27,13 @@ struct Pages {
         *history,
         PageSettings{.program = "count.stl", .live = live, .live_run = {}, .clock = [this] { return clock += kSecond; }},
         Post{[this](Client client, const std::string& message) { got.emplace_back(client, read(message)); },
-             [this](const std::string& message) { got.emplace_back(0, read(message)); }});
+             [this](const std::string& message) {
+               got.emplace_back(0, read(message));
+               if (greets_at_news && got.back().second["event"] == "moved") {
+                 greets_at_news = false;
+                 talk->greet(0);
+               }
+             }});
   }
 
   static Json read(const std::string& message) {
@@ -50,6 +56,7 @@ struct Pages {
   }
 
   Time clock = 0;
+  bool greets_at_news = false;
   serial::Simulation simulation;
   std::unique_ptr<History> history{};
   std::vector<std::pair<Client, Json>> got{};  // 0: all
@@ -67,6 +74,16 @@ TEST(Page, IsGreetedWithWhatItShows) {
   EXPECT_EQ(hello["cpu"], "214");
   EXPECT_EQ(hello["may"], Json::array());
   EXPECT_EQ(hello["now"]["now_ns"], 0);
+}
+
+TEST(Page, ThatComesWhileARunGoesOnIsGreetedWithItsCommand) {
+  Pages pages(kCounts, true);
+  pages.greets_at_news = true;
+  pages("continue 20ms");
+  EXPECT_EQ(pages.event("hello")["running"], "continue 20ms");
+  pages.got.clear();
+  pages.talk->greet(0);
+  EXPECT_FALSE(pages.event("hello").contains("running"));
 }
 
 TEST(Page, GetsTheReplyToItsCommandWithItsNumber) {

@@ -70,6 +70,7 @@ void Conversation::greet(Client client) const {
   hello["may"] = std::move(may);
   hello["live"] = settings_.live;
   hello["now"] = moments_json(session_);
+  if (runs_ > 0) hello["running"] = running_;
   post_.to(client, message_of(hello));
 }
 
@@ -136,6 +137,7 @@ void Conversation::tell_moved(const std::string& by) const {
 // --- while a run goes on ---
 
 void Conversation::run_begins(bool /*of_all*/) {
+  if (runs_ == 0) running_ = session_.command;
   Json running = event("running");
   running["command"] = session_.command;
   tell_all(std::move(running));

@@ -87,6 +87,7 @@ class Conversation final : private Onlooker {
   Post post_;
   Session session_;
   int runs_ = 0;  ///< that go on; all but the last one are paused
+  std::string running_{};  ///< the command of the run that goes on
   Time news_at_ = 0;
   std::uint32_t executed_ = 0;
 };

@@ -38,6 +38,8 @@ export interface Hello {
   may: string[];
   live: boolean;
   now: Past;
+  /** The command by which a run goes on. */
+  running?: string;
 }
 
 export type Notification =

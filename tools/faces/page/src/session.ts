@@ -291,11 +291,12 @@ export function notified(note: Notification): void {
       }
       state.hello = note;
       state.past = note.now;
+      state.running = note.running !== undefined;
       load_marks();
       void get_acquainted().then(follow_link);
       break;
     case 'moved':
-      if (!state.own_run) state.running = note.by === '';  // a run that another page has begun, perhaps before this one was there
+      if (!state.own_run) state.running = note.by === '';  // a run that another page has begun
       came_to(note.now);
       break;
     case 'changed':
