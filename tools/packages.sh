@@ -164,6 +164,7 @@ for_release() {
   export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || date +%s)}
   umask 022
   unset CXXFLAGS LDFLAGS  # those of this computer are not for others
+  export CCACHE_BASEDIR=  # where it is set, names of headers in messages would be relative to the folder of the build
   for_debian=("-DCMAKE_CXX_FLAGS=\"-ffile-prefix-map=$PWD=s7200\"")
 }
 
