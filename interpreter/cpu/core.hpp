@@ -188,6 +188,21 @@ class Core {
   std::int32_t clock_error_ = 0;
 };
 
+/// A bit, or a value of a width, as memory has it there.
+inline std::uint32_t load_value(const std::uint8_t* from, Width width, std::uint8_t bit) {
+  switch (width) {
+    case Width::Bit:
+      return *from >> bit & 1;
+    case Width::Byte:
+      return *from;
+    case Width::Word:
+      return load16(from);
+    case Width::Double:
+      break;
+  }
+  return load32(from);
+}
+
 template <class Value>
 inline Value Core::get(const Operand& operand) const {
   const std::uint8_t* from = &s.image[operand.at];

@@ -180,23 +180,15 @@ bool Cpu::force(const MemoryRange& place, std::uint32_t value) { return forcing:
 bool Cpu::unforce(const MemoryRange& place) { return forcing::unforce(from_outside(), place); }
 
 std::optional<std::uint32_t> Cpu::peek(const Op& op, std::size_t i) const {
-  Operand operand = op[i];
   const OperandRule& rule = op.instruction->operand[i];
-  if (rule.kind != OperandKind::Memory) return operand.at;
+  if (rule.kind != OperandKind::Memory) return op[i].at;
+  return peek(op[i], rule.width);
+}
+
+std::optional<std::uint32_t> Cpu::peek(const Operand& operand, Width width) const {
   const auto place = place_of(operand);
   if (!place) return {};
-  operand.at = *place;
-  switch (rule.width) {
-    case Width::Bit:
-      return core_.bit(operand);
-    case Width::Byte:
-      return core_.get<std::uint8_t>(operand);
-    case Width::Word:
-      return core_.get<std::uint16_t>(operand);
-    case Width::Double:
-      return core_.get<std::uint32_t>(operand);
-  }
-  return {};
+  return load_value(&core_.s.image[*place], width, operand.bit);
 }
 
 }  // namespace s7200

@@ -108,6 +108,8 @@ class Cpu {
 
   /// The value of operand `i` as the instruction would find it now; nothing for a bad pointer.
   std::optional<std::uint32_t> peek(const Op& op, std::size_t i) const;
+  /// The same of memory that a CALL hands over.
+  std::optional<std::uint32_t> peek(const Operand& operand, Width width) const;
 
   /// The place in the image that an operand means now; nothing for a bad pointer.
   std::optional<std::uint32_t> place_of(const Operand& operand) const {

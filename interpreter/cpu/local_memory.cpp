@@ -25,4 +25,20 @@ void take_up(Core& core) {
   std::copy(kept.begin(), kept.end(), core.s.image.begin() + image::kL);
 }
 
+std::vector<OpenRoutine> open_routines(const Program& program, const State& s) {
+  std::vector<OpenRoutine> open{{.first = 0, .call = {}, .memory = s.local[0]}};
+  const std::uint8_t before = s.in_interrupt ? s.saved.call_depth : s.call_depth;
+  const auto enter = [&](std::uint8_t depth, std::size_t level) {
+    const std::uint32_t call = s.calls[depth].return_to - 1;
+    open.push_back({.first = program.ops[call].target, .call = call, .memory = s.local[level]});
+  };
+  for (std::uint8_t depth = 0; depth < before; ++depth) enter(depth, depth + std::size_t{1});
+  if (s.in_interrupt)
+    open.push_back({.first = program.interrupt[s.serving_routine], .call = {}, .memory = s.local[kOfInterrupts]});
+  for (std::uint8_t depth = before; depth < s.call_depth; ++depth) enter(depth, kOfInterrupts + 1 + depth - before);
+  open.back().runs = true;
+  open.back().memory = std::span(s.image).subspan<image::kL, std::tuple_size_v<LocalMemory>>();
+  return open;
+}
+
 }  // namespace s7200::local_memory

@@ -4,6 +4,10 @@
 // power-up it is 0. [LocalMemory.ARoutineFindsWhatTheLastOneOfItsLevelLeft]
 #pragma once
 
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "interpreter/cpu/core.hpp"
 
 namespace s7200::local_memory {
@@ -17,5 +21,16 @@ void put_aside(Core& core);
 
 /// Takes up the memory of the present level: the same memory again, or that of another routine, after the level has changed.
 void take_up(Core& core);
+
+/// A routine that has begun and has not ended.
+struct OpenRoutine {
+  std::uint32_t first = 0;            ///< its SBR or INT; of the main program its first op
+  std::optional<std::uint32_t> call;  ///< the CALL that it was entered by
+  std::span<const std::uint8_t, std::tuple_size_v<LocalMemory>> memory;
+  bool runs = false;  ///< the innermost: its memory is in the image
+};
+
+/// The main program and all that has been entered since, the innermost last. They are views of `s`.
+std::vector<OpenRoutine> open_routines(const Program& program, const State& s);
 
 }  // namespace s7200::local_memory

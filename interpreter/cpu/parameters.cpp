@@ -15,17 +15,7 @@ std::span<const Parameter> parameters_of(const Core& core, const Op& call) {
 }
 
 std::uint32_t read(const Core& core, const Operand& from, Width width) {
-  switch (width) {
-    case Width::Bit:
-      return core.bit(from);
-    case Width::Byte:
-      return core.get<std::uint8_t>(from);
-    case Width::Word:
-      return core.get<std::uint16_t>(from);
-    case Width::Double:
-      break;
-  }
-  return core.get<std::uint32_t>(from);
+  return load_value(&core.s.image[from.at], width, from.bit);
 }
 
 void write(Core& core, const Operand& to, Width width, std::uint32_t value) {

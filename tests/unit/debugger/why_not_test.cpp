@@ -105,6 +105,85 @@ TEST(WhyNot, AParameterIsWhatTheCallHandsOver) {
   EXPECT_TRUE(has(high, "LB2=61 < 60 must hold")) << high;
 }
 
+/// A subroutine that several CALLs enter.
+std::string with_calls(std::string_view calls) {
+  return fmt::format(
+      "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\n{}END_ORGANIZATION_BLOCK\n"
+      "SUBROUTINE_BLOCK Motor:SBR0\nVAR_INPUT\non : BOOL;\nEND_VAR\nVAR_OUTPUT\nruns : BOOL;\nEND_VAR\n"
+      "BEGIN\nNETWORK 1\nLD #on\nA I0.7\n= #runs\n= Q1.0\nEND_SUBROUTINE_BLOCK\n",
+      calls);
+}
+
+constexpr std::string_view kOneOfTwo = "LD I0.4\nCALL Motor, I0.0, Q0.0\nLD I0.5\nCALL Motor, I0.1, Q0.1\n";
+constexpr std::string_view kBoth = "LD SM0.0\nCALL Motor, I0.0, Q0.0\nLD SM0.0\nCALL Motor, I0.1, Q0.1\n";
+
+/// A subroutine hands a TEMP on, at L0.1, and calls another one in whose memory nothing is on.
+constexpr std::string_view kHandsOn =
+    "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.0\nCALL Outer, I0.0\nEND_ORGANIZATION_BLOCK\n"
+    "SUBROUTINE_BLOCK Outer:SBR0\nVAR_INPUT\non : BOOL;\nEND_VAR\nVAR\nheld : BOOL;\nEND_VAR\n"
+    "BEGIN\nNETWORK 1\nLD #on\n= #held\nLD SM0.0\nCALL Inner, #held\nCALL Other\nEND_SUBROUTINE_BLOCK\n"
+    "SUBROUTINE_BLOCK Inner:SBR1\nVAR_INPUT\nen : BOOL;\nEND_VAR\n"
+    "BEGIN\nNETWORK 1\nLD #en\nA I1.0\n= Q1.1\nEND_SUBROUTINE_BLOCK\n"
+    "SUBROUTINE_BLOCK Other:SBR2\nBEGIN\nNETWORK 1\nLD I0.6\n= Q1.2\nEND_SUBROUTINE_BLOCK\n";
+
+std::string answer_now(const Cpu& cpu, std::string_view wish) {
+  return fmt::format("{}\n", fmt::join(lines_of(why_not(cpu, *parse_wish(wish, cpu.program()))), "\n"));
+}
+
+/// Of memory with one input byte set.
+std::string in_picture(std::string_view program, std::uint8_t inputs, std::string_view wish) {
+  OnePlc plc(on_cpu224(program));
+  const auto state = std::make_unique<State>(plc.state());
+  state->image[image::kI] = inputs;
+  plc.simulation.cpu().restore(*state);
+  return answer_now(plc.simulation.cpu(), wish);
+}
+
+TEST(WhyNot, AParameterIsThatOfTheCallByWhichItWasEnteredAndNotOfTheLastInTheText) {
+  AtPrompt session(on_cpu224(with_calls(kOneOfTwo)));
+  session("input I0.1=1 I0.4=1; scan 3");
+  const std::string text = session("why not Q1.0");
+  EXPECT_TRUE(has(text, "L0.0 is 0, must be 1 (LD #on:L0.0 ")) << text;
+  EXPECT_TRUE(has(text, "CALL 0, I0.0, Q0.0 in line 5 hands it over\n")) << text;
+  EXPECT_FALSE(has(text, "CALL 0, I0.1")) << text;
+}
+
+TEST(WhyNot, OfAPictureOfMemoryItIsTheCallThatHasPowerFlow) {
+  const std::string program = with_calls(kOneOfTwo);
+  const std::string first = in_picture(program, 0x12, "Q1.0");
+  EXPECT_TRUE(has(first, "L0.0 is 0, must be 1 (LD #on:L0.0 ")) << first;
+  EXPECT_TRUE(has(first, "CALL 0, I0.0, Q0.0 in line 5 hands it over\n")) << first;
+  const std::string second = in_picture(program, 0x22, "Q1.0");
+  EXPECT_FALSE(has(second, "L0.0 is 0")) << second;
+}
+
+TEST(WhyNot, CallsThatAllHaveNoPowerFlowAreAllListed) {
+  const std::string text = in_picture(with_calls(kOneOfTwo), 0x02, "Q1.0");
+  EXPECT_TRUE(has(text, "L0.0 must be 1 (LD #on:L0.0 ")) << text;
+  EXPECT_TRUE(has(text, "2 CALLs hand it over, and none has power flow now")) << text;
+  EXPECT_TRUE(has(text, "CALL 0, I0.0, Q0.0 in line 5 hands it over\n")) << text;
+  EXPECT_TRUE(has(text, "CALL 0, I0.1, Q0.1 in line 7 hands it over\n")) << text;
+}
+
+TEST(WhyNot, WhatACallGetsBackIsFollowedWithWhatThatCallHandsOver) {
+  AtPrompt session(on_cpu224(with_calls(kBoth)));
+  session("input I0.1=1 I0.7=1; scan 3");
+  const std::string first = session("why not Q0.0");
+  EXPECT_TRUE(has(first, "L0.0 is 0, must be 1 (LD #on:L0.0 ")) << first;
+  EXPECT_TRUE(has(first, "CALL 0, I0.0, Q0.0 in line 5 hands it over\n")) << first;
+  EXPECT_FALSE(has(first, "CALL 0, I0.1")) << first;
+  const std::string other = session("input I0.1=0 I0.0=1; scan 3; why not Q0.1");
+  EXPECT_TRUE(has(other, "CALL 0, I0.1, Q0.1 in line 7 hands it over\n")) << other;
+  EXPECT_FALSE(has(other, "CALL 0, I0.0")) << other;
+}
+
+TEST(WhyNot, ATemporaryThatIsHandedOnIsThatOfTheCallerWhateverRunsNow) {
+  AtPrompt session(on_cpu224(kHandsOn));
+  session("input I0.0=1; scan 3; break 35; continue 20ms");
+  ASSERT_EQ(session.state().call_depth, 2);
+  EXPECT_TRUE(has(answer_now(session.simulation.cpu(), "Q1.1"), "= Q1.1 in line 30: #en:L0.0=1 and I1.0=0\n"));
+}
+
 TEST(WhyNot, TwoContactsOfTheSameBitThatExcludeEachOtherAreNoWay) {
   AtPrompt session(on_cpu224("LD I1.1\nAN I1.1\n= Q0.7\nMEND\n"));
   EXPECT_TRUE(has(session("scan 3; why not Q0.7"), "  it can never be on: I1.1 (line 1) and not I1.1 (line 2) exclude each other\n"));

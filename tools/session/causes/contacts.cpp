@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
-#include "interpreter/base/bytes.hpp"
 #include "tools/session/past/actions/access.hpp"
 
 namespace s7200::tools {
@@ -15,11 +15,7 @@ std::span<const std::uint8_t> text_at(const State& state, std::uint32_t place) {
   return rest.first(std::min<std::size_t>(rest.size(), rest[0] + std::size_t{1}));
 }
 
-/// The SBR or INT of an op; 0 in the main program.
-std::uint32_t head_of(const Program& program, std::uint32_t op) {
-  while (op > 0 && !begins_routine(program.ops[op].instruction->structure)) --op;
-  return op;
-}
+bool is_local(const Operand& operand) { return operand.at >= image::kL && operand.at < image::kConstants; }
 
 }  // namespace
 
@@ -31,59 +27,104 @@ std::optional<std::uint8_t> event_of_routine(const State& state, std::uint32_t r
 
 bool comes_by_itself(std::uint8_t event) { return event == 10 || event == 11; }
 
+Contacts::Contacts(const Cpu& cpu, const ControlFlow& flow, const LatelyExecuted& lately, Time fresh_since, Enters enters)
+    : cpu_(cpu),
+      flow_(flow),
+      lately_(lately),
+      fresh_since_(fresh_since),
+      enters_(std::move(enters)),
+      open_(local_memory::open_routines(cpu.program(), cpu.state())) {}
+
 const InstructionRecord* Contacts::found(std::uint32_t op) const {
   const auto last = lately_.find(op);
   return last == lately_.end() || last->second.at < fresh_since_ ? nullptr : &last->second;
 }
 
 std::optional<std::uint32_t> Contacts::value(std::uint32_t op, std::size_t operand) const {
-  if (const InstructionRecord* record = found(op); record && record->value[operand]) return record->value[operand];
+  const std::uint32_t routine = flow_.nodes[op].routine;
+  const InstructionRecord* record = found(op);
+  if (record && record->value[operand] && is_last_entered()) return record->value[operand];
   const Op& of = cpu_.program().ops[op];
-  const auto handed = handed_over(op, of[operand], of.instruction->operand[operand].width, 0);
-  return handed ? handed : cpu_.peek(of, operand);
+  const OperandRule& rule = of.instruction->operand[operand];
+  return rule.kind == OperandKind::Memory ? value_in(routine, of[operand], rule.width, 0) : of[operand].at;
 }
 
-/// What the last CALL that has this local memory, or more with it, as a parameter hands over.
-std::optional<std::uint32_t> Contacts::handed_over(std::uint32_t number, const Operand& local, Width width,
-                                                   std::size_t level) const {
-  constexpr std::size_t kDeepest = 8;  // calls in one another
-  const Program& program = cpu_.program();
-  if (local.pointer || local.at < image::kL || local.at >= image::kConstants || level == kDeepest) return {};
-  const std::uint32_t head = head_of(program, number);
-  for (std::uint32_t call = static_cast<std::uint32_t>(program.ops.size()); call-- > 0;) {
-    if (program.ops[call].instruction->structure != Structure::Call || program.ops[call].target != head) continue;
-    for (const Parameter& parameter : parameters_of(program, call)) {
-      const std::uint32_t before = local.at - parameter.local.at, bytes = bytes_of(parameter.width);
-      if (parameter.role == Role::Out || local.at < parameter.local.at || before + bytes_of(width) > bytes) continue;
-      if (parameter.width == Width::Bit && (width != Width::Bit || local.bit != parameter.local.bit)) continue;
-      const auto value = value_of(call, parameter.actual, parameter.width, level + 1);
-      if (!value) return {};
-      const std::uint32_t part = *value >> 8 * (bytes - before - bytes_of(width));
-      if (width != Width::Bit) return width == Width::Double ? part : part & ((1u << 8 * bytes_of(width)) - 1);
-      return parameter.width == Width::Bit ? part : part >> local.bit & 1;
-    }
+/// Whether all that is looked within was entered last by the CALLs that are meant: then it was found as it is meant.
+bool Contacts::is_last_entered() const {
+  return std::ranges::all_of(within_, [&](const auto& each) { return each.second == last_executed_call(each.first); });
+}
+
+/// The CALL of a routine that was executed last of those that were lately.
+std::optional<std::uint32_t> Contacts::last_executed_call(std::uint32_t routine) const {
+  const InstructionRecord* last = nullptr;
+  for (const CallSite& call : flow_.calls) {
+    if (call.routine != routine) continue;
+    const auto record = lately_.find(call.op);
+    if (record == lately_.end() || !record->second.powered) continue;
+    if (!last || last->at <= record->second.at) last = &record->second;
+  }
+  return last ? std::optional(last->op) : std::nullopt;
+}
+
+std::optional<std::uint32_t> Contacts::entered_by(std::uint32_t routine) const {
+  if (const auto within = within_.find(routine); within != within_.end()) return within->second;
+  if (const OpenRoutine* open = open_of(routine); open && open->call) return open->call;
+  if (const auto last = last_executed_call(routine)) return last;
+  const auto has_power = [&](const CallSite& call) { return call.routine == routine && enters_(call.op); };
+  const auto only = [&](const CallSite& call) { return call.routine == routine; };
+  const auto last = std::ranges::find_if(flow_.calls.rbegin(), flow_.calls.rend(), has_power);
+  if (last != flow_.calls.rend()) return last->op;
+  if (std::ranges::count_if(flow_.calls, only) != 1) return {};
+  return std::ranges::find_if(flow_.calls, only)->op;
+}
+
+std::optional<std::uint32_t> Contacts::look_within(std::uint32_t routine, std::optional<std::uint32_t> call) {
+  const auto before = within_.find(routine);
+  const auto was = before == within_.end() ? std::nullopt : std::optional(before->second);
+  if (call)
+    within_[routine] = *call;
+  else
+    within_.erase(routine);
+  return was;
+}
+
+/// Null of one that has not begun, or that something else is asked of than what it is doing.
+const local_memory::OpenRoutine* Contacts::open_of(std::uint32_t routine) const {
+  const std::uint32_t first = flow_.routines[routine].first;
+  const auto open = std::ranges::find(open_.rbegin(), open_.rend(), first, &OpenRoutine::first);
+  if (open == open_.rend()) return nullptr;
+  const auto within = within_.find(routine);
+  return within == within_.end() || open->call == within->second ? &*open : nullptr;
+}
+
+/// As an instruction of the routine finds it.
+std::optional<std::uint32_t> Contacts::value_in(std::uint32_t routine, const Operand& operand, Width width,
+                                                std::uint32_t level) const {
+  if (!is_local(operand)) return cpu_.peek(operand, width);
+  const OpenRoutine* const open = open_of(routine);
+  if (!open) return operand.pointer ? std::nullopt : handed_over(routine, operand, width, level);
+  if (open->runs) return cpu_.peek(operand, width);
+  if (operand.pointer) return {};
+  return load_value(&open->memory[operand.at - image::kL], width, operand.bit);
+}
+
+/// What the CALL hands over that has this local memory, or more with it, as a parameter. `level`: calls that were followed.
+std::optional<std::uint32_t> Contacts::handed_over(std::uint32_t routine, const Operand& local, Width width,
+                                                   std::uint32_t level) const {
+  if (level == cpu_.program().model->call_depth) return {};
+  const auto call = entered_by(routine);
+  if (!call) return {};
+  for (const Parameter& parameter : parameters_of(cpu_.program(), *call)) {
+    const std::uint32_t before = local.at - parameter.local.at, bytes = bytes_of(parameter.width);
+    if (parameter.role == Role::Out || local.at < parameter.local.at || before + bytes_of(width) > bytes) continue;
+    if (parameter.width == Width::Bit && (width != Width::Bit || local.bit != parameter.local.bit)) continue;
+    const auto value = value_in(flow_.nodes[*call].routine, parameter.actual, parameter.width, level + 1);
+    if (!value) return {};
+    const std::uint32_t part = *value >> 8 * (bytes - before - bytes_of(width));
+    if (width != Width::Bit) return width == Width::Double ? part : part & ((1u << 8 * bytes_of(width)) - 1);
+    return parameter.width == Width::Bit ? part : part >> local.bit & 1;
   }
   return {};
-}
-
-/// Of an operand of a CALL.
-std::optional<std::uint32_t> Contacts::value_of(std::uint32_t call, const Operand& operand, Width width,
-                                                std::size_t level) const {
-  if (const auto handed = handed_over(call, operand, width, level)) return handed;
-  const auto place = cpu_.place_of(operand);
-  if (!place) return {};
-  const std::uint8_t* const at = &cpu_.state().image[*place];
-  switch (width) {
-    case Width::Bit:
-      return *at >> operand.bit & 1;
-    case Width::Byte:
-      return *at;
-    case Width::Word:
-      return load16(at);
-    case Width::Double:
-      break;
-  }
-  return load32(at);
 }
 
 bool Contacts::conducts(std::uint32_t number) const {

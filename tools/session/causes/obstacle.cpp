@@ -29,8 +29,10 @@ std::string reference_text(std::size_t line, std::size_t own_line) {
 
 std::string line_of(const Obstacle& obstacle, const std::string& more) {
   if (obstacle.name.empty()) return with_more(obstacle, more);
-  std::string line = fmt::format("{} is {}{}", obstacle.name, obstacle.value, since_text(obstacle));
-  if (!obstacle.wanted.empty()) line += fmt::format(", must be {}", obstacle.wanted);
+  const bool known = !obstacle.value.empty();
+  std::string line = obstacle.name;
+  if (known) line += fmt::format(" is {}{}", obstacle.value, since_text(obstacle));
+  if (!obstacle.wanted.empty()) line += fmt::format("{} must be {}", known ? "," : "", obstacle.wanted);
   if (!obstacle.place.empty()) line += fmt::format(" ({})", obstacle.place);
   const std::string text = with_more(obstacle, more);
   return text.empty() ? line : fmt::format("{}: {}", line, text);

@@ -36,7 +36,19 @@ constexpr std::string_view kOnlyFromOutside =
 bool is_bits_of_timer(const Bits& bit) { return bit.first / 8 - image::kTBits < image::kTimers / 8; }
 bool is_bits_of_counter(const Bits& bit) { return bit.first / 8 - image::kCBits < image::kCounters / 8; }
 
+/// Nothing of a bit that is not known.
+std::string bit_text(const std::optional<std::uint32_t>& bit) { return !bit ? "" : *bit != 0 ? "1" : "0"; }
+
 Bits bit_at(const Operand& operand) { return {std::uint64_t{operand.at} * 8 + operand.bit, 1}; }
+
+/// Whether a CALL puts a result of its subroutine there. What else it writes is the local memory of that one.
+bool gets_back(const Program& program, std::uint32_t call, const Bits& bits) {
+  return std::ranges::any_of(parameters_of(program, call), [&](const Parameter& parameter) {
+    const Operand& to = parameter.actual;
+    const Bits whole{std::uint64_t{to.at} * 8, std::uint64_t{bytes_of(parameter.width)} * 8};
+    return parameter.role != Role::In && !to.pointer && (parameter.width == Width::Bit ? bit_at(to) : whole).overlaps(bits);
+  });
+}
 
 }  // namespace
 
@@ -44,10 +56,12 @@ Obstacles::Obstacles(const Cpu& cpu, const Facts& facts, const LatelyExecuted& l
     : cpu_(cpu),
       facts_(facts),
       calls_(calls_of(facts.program, facts.flow)),
-      contacts_(cpu, lately, fresh_since),
+      contacts_(cpu, facts.flow, lately, fresh_since, [this](std::uint32_t call) { return enters(call); }),
       has_run_(!lately.empty()),
       ways_(facts,
             {[this](std::uint32_t op) { return contacts_.conducts(op); }, [this](std::uint32_t op) { return runs(op); }}),
+      entries_(facts,
+               {[this](std::uint32_t op) { return contacts_.conducts(op); }, [this](std::uint32_t op) { return runs(op); }}),
       rungs_(ways_, [this](std::uint32_t op, std::size_t operand) { return operand_text(op, operand); }) {}
 
 // --- words ---
@@ -110,6 +124,33 @@ bool Obstacles::runs(std::uint32_t number) const {
   return in_interrupt ? contacts_.executed(number) : contacts_.found(number) != nullptr;
 }
 
+/// Whether a CALL is executed and has power flow, as its contacts are now.
+bool Obstacles::enters(std::uint32_t call) const {
+  const auto [known, is_new] = enters_.try_emplace(call, false);
+  if (!is_new) return known->second;
+  const auto ways = entries_.to(call, true);
+  return known->second = std::ranges::any_of(ways, [&](const Conditions& way) { return entries_.changes(way).empty(); });
+}
+
+std::optional<std::uint32_t> Obstacles::look_within(std::uint32_t routine, std::optional<std::uint32_t> call) {
+  enters_.clear();
+  return contacts_.look_within(routine, call);
+}
+
+/// The one that it was entered by; all if that is not known.
+std::vector<std::uint32_t> Obstacles::calls_that_hand_over(std::uint32_t routine) const {
+  if (const auto call = contacts_.entered_by(routine)) return {*call};
+  std::vector<std::uint32_t> all;
+  for (const CallSite& call : facts_.flow.calls)
+    if (call.routine == routine) all.push_back(call.op);
+  return all;
+}
+
+std::string Obstacles::several_text(std::uint32_t routine) const {
+  const std::size_t calls = calls_that_hand_over(routine).size();
+  return calls > 1 ? fmt::format("{} hand it over, and none has power flow now", counted(calls, "CALL")) : "";
+}
+
 // --- who writes ---
 
 void Obstacles::note_writer(std::uint32_t number, const Bits& bits, bool wanted, Writers& writers) const {
@@ -117,7 +158,10 @@ void Obstacles::note_writer(std::uint32_t number, const Bits& bits, bool wanted,
   const std::string_view mnemonic = by.instruction->mnemonic;
   const bool one_bit = bits.count == 1;
   if (returns_from_subroutine(by)) return;  // its CALL is named
-  if (by.instruction->structure == Structure::Call) return writers.calls.push_back(number);
+  if (by.instruction->structure == Structure::Call) {
+    if (gets_back(program(), number, bits)) writers.calls.push_back(number);
+    return;
+  }
   if (by.instruction->effect == Effect::Receives || is_among(mnemonic, {"NETR", "NETW"}))
     return writers.messages.push_back(number);
   if (one_bit && is_among(mnemonic, {"=", "=I"})) return writers.deciding.push_back(number);
@@ -254,7 +298,7 @@ Obstacle Obstacles::of_contact(const Condition& condition) {
   found.place = place_text(condition.op);
   if (segment) found.text += fmt::format("{}a step of the sequence", found.text.empty() ? "" : "; ");
   if (is_local) {
-    found.value = contacts_.value(condition.op, 0).value_or(0) != 0 ? "1" : "0";
+    found.value = bit_text(contacts_.value(condition.op, 0));
     found.bits = {0, 0};
   } else if (is_on(bit) == wanted) {
     found.text = "it was not so when the program looked at it last";
@@ -282,11 +326,11 @@ void Obstacles::add_value_of(Obstacle& to, const Condition& condition, std::size
 void Obstacles::add_parameter(Obstacle& to, std::uint32_t number, std::size_t operand, const Bits& local) {
   Obstacle value{.kind = "value", .name = name_of(local)};
   const std::uint32_t routine = facts_.flow.nodes[number].routine;
-  for (const CallSite& call : facts_.flow.calls) {
-    if (call.routine != routine) continue;
-    for (const Parameter& parameter : parameters_of(program(), call.op)) {
+  for (const std::uint32_t call : calls_that_hand_over(routine)) {
+    for (const Parameter& parameter : parameters_of(program(), call)) {
       if (parameter.role == Role::Out || !local_bits(parameter).contains(local)) continue;
-      Obstacle given{.kind = "call", .text = fmt::format("{} hands it over", place_text(call.op)), .op = call.op};
+      value.text = several_text(routine);
+      Obstacle given{.kind = "call", .text = fmt::format("{} hands it over", place_text(call)), .op = call};
       const Bits actual{std::uint64_t{parameter.actual.at} * 8, local_bits(parameter).count};
       const bool is_memory = !parameter.actual.pointer && parameter.actual.at < image::kConstants &&
                              parameter.width != Width::Bit && area_of(as_named(actual)) != Area::L;
@@ -433,20 +477,24 @@ Obstacle Obstacles::of_memory(const Bits& bit, bool wanted, std::optional<std::u
   return found;
 }
 
-/// What the calls of a routine hand over.
+/// What a routine was called with.
 void Obstacles::add_arguments(Obstacle& to, const Bits& local, bool wanted, std::uint32_t routine) {
-  for (const CallSite& call : facts_.flow.calls) {
-    if (call.routine != routine) continue;
-    for (const Parameter& parameter : parameters_of(program(), call.op)) {
+  for (const std::uint32_t call : calls_that_hand_over(routine)) {
+    for (const Parameter& parameter : parameters_of(program(), call)) {
       if (parameter.role == Role::Out || parameter.width != Width::Bit || !(local_bits(parameter) == local)) continue;
-      Obstacle given{.kind = "call", .text = fmt::format("{} hands it over", place_text(call.op)), .op = call.op};
+      to.text = several_text(routine);
+      Obstacle given{.kind = "call", .text = fmt::format("{} hands it over", place_text(call)), .op = call};
       const bool is_memory = !parameter.actual.pointer && parameter.actual.at < image::kConstants;
-      if (is_memory && is_on(bit_at(parameter.actual)) != wanted) {
+      const auto value = contacts_.argument(call, parameter);
+      if (is_memory && (!value || (*value != 0) != wanted)) {
         const Bits actual = bit_at(parameter.actual);
         const bool is_local = area_of(as_named(actual)) == Area::L;
-        given.because.push_back(is_local ? of_memory(actual, wanted, facts_.flow.nodes[call.op].routine)
+        given.because.push_back(is_local ? of_memory(actual, wanted, facts_.flow.nodes[call].routine)
                                          : of_bit(actual, wanted));
-        if (is_local) given.because.back().bits = {0, 0};
+        if (is_local) {
+          given.because.back().bits = {0, 0};
+          given.because.back().value = bit_text(value);
+        }
       }
       to.because.push_back(std::move(given));
     }
@@ -575,14 +623,17 @@ Obstacle Obstacles::of_writer(std::uint32_t number, const Bits& bit, bool wanted
 Obstacle Obstacles::of_call(std::uint32_t call, const Bits& bit, bool wanted) {
   Obstacle found{
       .kind = "call", .text = fmt::format("{} gets it back: {}", place_text(call), rung_text(call, 0)), .op = call};
+  const std::uint32_t routine = facts_.flow.nodes[op(call).target].routine;
+  const auto before = look_within(routine, call);
   for (const Parameter& parameter : parameters_of(program(), call)) {
     if (parameter.role == Role::In || parameter.actual.pointer || parameter.width != Width::Bit) continue;
     if (!(bit_at(parameter.actual) == bit)) continue;
-    Obstacle inside = of_memory(local_bits(parameter), wanted, facts_.flow.nodes[op(call).target].routine);
+    Obstacle inside = of_memory(local_bits(parameter), wanted, routine);
     inside.bits = {0, 0};
-    inside.value = is_on(bit) ? "1" : "0";
+    inside.value = bit_text(contacts_.argument(call, parameter));
     found.because.push_back(std::move(inside));
   }
+  look_within(routine, before);
   add_ways_if_any_changes(found, ways_.to(call, true));
   return found;
 }

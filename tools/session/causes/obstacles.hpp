@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -93,6 +94,10 @@ class Obstacles {
   std::string rung_text(std::uint32_t op, std::size_t level) const;
   std::string interrupt_text(std::uint32_t op) const;
   bool runs(std::uint32_t op) const;
+  bool enters(std::uint32_t call) const;
+  std::optional<std::uint32_t> look_within(std::uint32_t routine, std::optional<std::uint32_t> call);
+  std::vector<std::uint32_t> calls_that_hand_over(std::uint32_t routine) const;
+  std::string several_text(std::uint32_t routine) const;
 
   const Cpu& cpu_;
   const Facts& facts_;
@@ -100,6 +105,8 @@ class Obstacles {
   Contacts contacts_;
   bool has_run_;  ///< something was executed lately, so that what was not is known
   Ways ways_;
+  Ways entries_;  ///< the same of CALLs: asked while `ways_` asks what contacts let through
+  mutable std::map<std::uint32_t, bool> enters_{};  ///< by CALL; false while it is being found
   RungText rungs_;
   std::vector<std::pair<Bits, bool>> open_{};  ///< bits that are being followed
 
