@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/block_words.hpp"
@@ -153,17 +155,25 @@ class PageReader {
 
   void read_line(std::string_view line, std::uint32_t number) {
     const std::string_view text = trim(line.substr(marker_at_start(line)));
+    const auto declared = std::exchange(declared_, std::nullopt);
     if (text.empty()) return void(listing_ = false);
     LadderRow row = row_of(line, number);
     if (listing_) return page_.networks.back().listing.push_back({std::string(line), {number, 1, 1}});
     if (begins_listing(row)) return begin_listing(row);
     if (auto variable = declared_below_head(text, number)) {
       page_.networks.back().variables.push_back(std::move(*variable));
+      declared_ = first_cell(row);
       return;
     }
     const std::size_t start = first_cell(row);
     if (start == row.cells.size()) return;
-    if (row.at(start) == U'/' && row.at(start + 1) == U'/') return add_comment(text);
+    if (row.at(start) == U'/' && row.at(start + 1) == U'/') {
+      if (!declared || start <= *declared) return void(comments_.push_back(comment_of(text)));
+      std::string& comment = page_.networks.back().variables.back().comment;
+      comment += (comment.empty() ? "" : " ") + std::string(trim(comment_of(text)));
+      declared_ = declared;
+      return;
+    }
     if (!frame_.empty() && !numbered_rail(row)) return add_to_frame(std::move(row));
     if (!frame_.empty()) finish_frame();
     if (is_frame_top(row)) return begin_frame(std::move(row));
@@ -180,7 +190,7 @@ class PageReader {
     return column > start && is_blank_cell(row.at(column)) && text_of(row, column, row.cells.size()) == "STL";
   }
 
-  /// `VAR_INPUT  level : INT;  // comment`
+  /// `VAR_INPUT  level : INT;  // comment`, which may go on below, further in: `// comment`
   std::optional<Variable> declared_below_head(std::string_view text, std::uint32_t line) const {
     const std::size_t end = std::min(text.find(' '), text.size());
     const auto kind = std::ranges::find(kDeclarationWords, text.substr(0, end));
@@ -211,11 +221,11 @@ class PageReader {
     listing_ = true;
   }
 
-  void add_comment(std::string_view text) {
+  static std::string comment_of(std::string_view text) {
     constexpr std::string_view kDebris = "\uFFFD";
     text = trim_end(text.substr(text.find("//") + 2));
     while (text.ends_with(kDebris)) text = trim_end(text.substr(0, text.size() - kDebris.size()));
-    comments_.emplace_back(text);
+    return std::string(text);
   }
 
   /// Whether a row stands at a power rail. A digit before it may be damaged, so a wire is enough.
@@ -366,6 +376,7 @@ class PageReader {
 
   LadderPage& page_;
   std::set<std::size_t> rails_;        // columns in which rungs with numbers begin
+  std::optional<std::size_t> declared_{};  // the column of the declaration above, which a comment may go on below
   std::vector<std::string> comments_;  // above the drawing that comes next
   std::vector<LadderRow> rows_;        // of the open network
   std::vector<LadderRow> frame_;       // its lines so far

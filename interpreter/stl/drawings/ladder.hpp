@@ -11,7 +11,8 @@
 //
 // More than Micro/DOS could draw, read as `s7200 inspect … ladder` writes it: a box whose ENO leads on, `ENO├──`; a line
 // that goes on below, `──>A` and `A>──`; and in place of a drawing the STL of a network that has none, from a line `3   STL`
-// to the next blank one; below the frame of a routine its local variables, `VAR_INPUT  level : INT;`.
+// to the next blank one; below the frame of a routine its local variables, `VAR_INPUT  level : INT;  // comment`, with
+// what is left of the comment in lines further in.
 //
 // No description of these drawings was found: the shapes are those of a published tip. A wire that the page lost is an error
 // and is not guessed at.

@@ -299,5 +299,29 @@ TEST(LadderView, TheHeadOfASubroutineDeclaresItsVariables) {
   EXPECT_TRUE(std::ranges::equal(back.source.blocks[0].variables, parsed.source.blocks[1].variables, same));
 }
 
+TEST(LadderView, ACommentOfADeclarationThatIsWiderThanThePageReadsBackWhole) {
+  std::string comment = "level of the tank";
+  for (int i = 1; i <= 30; ++i) comment += ", or of tank " + std::to_string(i);
+  stl::ParseResult parsed = s7200::read_text(
+      "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.0\nCALL Scale, VW0\nEND_ORGANIZATION_BLOCK\n"
+      "SUBROUTINE_BLOCK Scale:SBR3\nVAR_INPUT\nraw : INT; // " +
+          comment +
+          "\nEND_VAR\nVAR\nt : REAL; // of it\nEND_VAR\n"
+          "BEGIN\nNETWORK 1\n// where it is taken\nLD SM0.0\nMOVW #raw, VW10\nEND_SUBROUTINE_BLOCK\n",
+      "test.awl");
+  stl::resolve_symbols(parsed);
+  const std::string page = ladder_text(drawn_networks(parsed.source), parsed.source, false);
+  for (const std::string& line : stl::split_lines(page)) EXPECT_LE(stl::count_characters(line), 100u) << line;
+  const stl::LadderPage read = stl::read_ladder(page, "page");
+  const auto back = ladder_to_stl(read);
+  EXPECT_TRUE(back.diagnostics.empty());
+  ASSERT_EQ(back.source.blocks.size(), 1U);
+  ASSERT_EQ(back.source.blocks[0].variables.size(), 2U);
+  EXPECT_EQ(back.source.blocks[0].variables[0].comment, comment) << page;
+  EXPECT_EQ(back.source.blocks[0].variables[1].comment, "of it");
+  const auto is_kept = [](const stl::LadderNetwork& network) { return !network.comments.empty(); };
+  EXPECT_EQ(std::ranges::count_if(read.networks, is_kept), 1) << "of the network below";
+}
+
 }  // namespace
 }  // namespace s7200::tools::ladder_view_test

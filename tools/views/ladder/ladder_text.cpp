@@ -142,7 +142,21 @@ std::string head_text(const stl::LadderElement& head, bool ascii) {
   return lines;
 }
 
-/// The local variables of the routine that a head begins: `VAR_INPUT   level : INT;  // comment`
+/// `VAR_INPUT   level : INT;  // comment`, and what is left of the comment below, each line with a `//` of its own.
+std::string declaration_text(const std::string& line) {
+  constexpr std::size_t kIndent = 16;
+  constexpr std::string_view kMark = "// ";
+  const std::string wrapped = stl::wrapped(line + "\n", kLadderColumns - kMark.size(), kIndent);
+  std::string_view rest = wrapped;
+  std::string text{stl::take_line(rest)};
+  while (!rest.empty()) {
+    std::string more{stl::take_line(rest)};
+    text += "\n" + more.insert(kIndent, kMark);
+  }
+  return text + "\n";
+}
+
+/// The local variables of the routine that a head begins.
 std::string declarations_text(const stl::LadderElement& head, const stl::Source& program) {
   const auto block = std::ranges::find_if(program.blocks, [&](const stl::Block& each) {
     return stl::words(each.kind).head == head.symbol && !head.operands.empty() &&
@@ -154,7 +168,7 @@ std::string declarations_text(const stl::LadderElement& head, const stl::Source&
     const std::string line =
         fmt::format("    {:<10}  {} : {};{}{}", stl::word(variable.kind), variable.name, stl::word(variable.type).name,
                     variable.comment.empty() ? "" : "  // ", stl::trim(variable.comment));
-    text += stl::wrapped(stl::printable(line) + "\n", kLadderColumns, 16);
+    text += declaration_text(stl::printable(line));
   }
   return text;
 }
