@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 
 #include "tools/scenario/transcripts/transcript_writer.hpp"
 #include "tools/trials/chance.hpp"
@@ -17,6 +18,7 @@ namespace {
 constexpr std::size_t kPoints = 8 * image::kPointBytes, kMostKept = 2000, kMostShortening = 600;
 constexpr std::uint64_t kLeastRuns = 400;
 constexpr Time kSettles = 100 * kMillisecond, kAnswers = 400 * kMillisecond, kJitter = 2 * kMillisecond;
+constexpr Time kMostShortened = 3600 * kSecond;  ///< simulated while a difference is made shorter
 constexpr int kLater = 4, kLonger = 3;  ///< times that a difference is tried again with later inputs, with longer ones
 
 using Edges = std::array<std::vector<Time>, kPoints>;
@@ -254,6 +256,9 @@ class Search {
     look();
     while (result_.end == BehaviourResult::End::Differs && !result_.difference && !is_over()) one_run();
     result_.port = maker_.words().port.value_or(0);
+    std::ranges::copy_if(maker_.words().counts, std::back_inserter(result_.beyond),
+                         [](std::uint32_t count) { return count > TrialMaker::kMostEdges; });
+    std::ranges::sort(result_.beyond);
     count(0, pair_.old_bench.contacts());
     count(1, pair_.new_bench.contacts());
     if (result_.difference) finish();
@@ -341,7 +346,12 @@ class Search {
 
   void finish() {
     watch(false);
-    const auto holds = [this](const Trial& trial) { return persists(trial); };
+    Time simulated = 0;
+    const auto holds = [&](const Trial& trial) {
+      const bool all = simulated < kMostShortened && persists(trial);
+      simulated += pair_.old_bench.time();
+      return all;
+    };
     const Trial shortest = shortened(result_.difference->trial, holds, kMostShortening);
     watch(false);
     auto found = pair_.run(shortest);

@@ -50,6 +50,7 @@ struct BehaviourResult {
   std::uint64_t runs = 0, timing_alone = 0;
   Time simulated = 0;
   std::uint8_t port = 0;
+  std::vector<std::uint32_t> beyond{};        ///< presets of counters that get fewer edges than they count
   std::size_t contacts[2]{}, both_ways[2]{};  ///< of the old and the new program
   std::vector<ContactsSeen::Never> never[2]{};
 };

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "interpreter/base/text/counted.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/text/statement_text.hpp"
 #include "tools/compare/behaviour.hpp"
+#include "tools/trials/chance.hpp"
 #include "tools/trials/trial_text.hpp"
 
 namespace s7200::tools {
@@ -33,6 +35,13 @@ std::string never_text(const Inspection& inspection, const std::vector<ContactsS
   }
   if (never.size() > kShown) text += fmt::format("    … and {} more\n", never.size() - kShown);
   return text;
+}
+
+std::string beyond_text(const BehaviourResult& result) {
+  if (result.beyond.empty()) return {};
+  return fmt::format("  not counted to the end: {} of {}; no input gets more than {} edges running\n",
+                     result.beyond.size() == 1 ? "a counter with a preset" : "counters with presets",
+                     fmt::join(result.beyond, " and "), TrialMaker::kMostEdges);
 }
 
 std::string contacts_text(const char* side, const Inspection& inspection, const BehaviourResult& result,
@@ -72,7 +81,7 @@ std::string behaviour_text(const Inspection& older, const Inspection& newer, con
       result.timing_alone == 0 ? "" : fmt::format("  {} differed in timing alone\n", counted(result.timing_alone, "run"));
   if (!result.difference)
     return fmt::format("\nBehaviour: no difference in {}; {}\n", tried, end_text(result.end)) + timing +
-           contacts_text("old", older, result, 0) + contacts_text("new", newer, result, 1);
+           beyond_text(result) + contacts_text("old", older, result, 0) + contacts_text("new", newer, result, 1);
   const BehaviourDifference& difference = *result.difference;
   return fmt::format("\nBehaviour: differs {} after power-up, found in {}\n", format_duration(difference.at, 3), tried) +
          fmt::format("  {}: old {}, new {}\n", difference.what, difference.older, difference.newer) +
@@ -84,6 +93,7 @@ ordered_json behaviour_json(const Inspection& older, const Inspection& newer, co
   ordered_json json{{"same", !result.difference}, {"ended_by", end_word(result.end)}, {"runs", result.runs}};
   json["simulated_ns"] = result.simulated;
   json["timing_alone"] = result.timing_alone;
+  json["presets_beyond"] = result.beyond;
   json["old"] = side_json(older, result, 0);
   json["new"] = side_json(newer, result, 1);
   json["difference"] = nullptr;

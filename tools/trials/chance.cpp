@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kMostRemembered = 256, kLongestFrame = 256;
 constexpr Time kLongestPreset = 2 * 3600 * kSecond;
 constexpr Time kPulse = 5 * kMillisecond;  ///< an input is on or off at least; a few scans
-constexpr std::uint32_t kMostPulses = 100;
+constexpr int kMostWrong = 3;
 
 std::uint32_t number_at(const Vocabulary::Bytes& place, const State& now) {
   std::uint32_t number = 0;
@@ -52,7 +52,7 @@ std::uint32_t TrialMaker::value() {
 /// At the boundary of a comparison that the memory decides: equal, or one more or less.
 std::uint32_t TrialMaker::value_for(const Vocabulary::Bytes& place, const State& now) {
   const auto decided = decides_.find(place.place);
-  if (decided == decides_.end() || chance_.one_in(3)) return value();
+  if (decided == decides_.end() || decided->second.empty() || chance_.one_in(3)) return value();
   const Decided& one = chance_.one_of(decided->second);
   const std::uint32_t difference = words_.comparisons[one.comparison].difference(now.image);
   const std::uint32_t equal = number_at(place, now) - (one.against ? 0 - difference : difference);
@@ -76,11 +76,22 @@ void TrialMaker::learn(const State& after) {
     const std::uint32_t mask = mask_of(std::min(comparison.count, set->place.count));
     const std::uint32_t by = (set->value - set->before) & mask;
     const std::uint32_t changed = (comparison.difference(after.image) - set->differences[i]) & mask;
-    if (by == 0 || (changed != by && changed != ((0 - by) & mask))) continue;
-    const Decided decided{i, changed != by};
-    std::vector<Decided>& all = decides_[set->place.place];
-    if (std::ranges::find(all, decided) == all.end()) all.push_back(decided);
+    if (by == 0) continue;
+    std::vector<Decided>& known = decides_[set->place.place];
+    note(known, i, false, changed == by);
+    note(known, i, true, changed != by && changed == ((0 - by) & mask));
   }
+}
+
+void TrialMaker::note(std::vector<Decided>& known, std::size_t comparison, bool against, bool is_so) {
+  const auto is_it = [&](const Decided& each) { return each.comparison == comparison && each.against == against; };
+  const auto found = std::ranges::find_if(known, is_it);
+  if (found == known.end()) {
+    if (is_so) known.push_back({comparison, against});
+    return;
+  }
+  found->wrong = is_so ? 0 : found->wrong + 1;
+  if (found->wrong == kMostWrong) known.erase(found);
 }
 
 Stimulus TrialMaker::switch_inputs(const State& now) {
@@ -93,9 +104,11 @@ Stimulus TrialMaker::switch_inputs(const State& now) {
   return {.what = Stimulus::What::Input, .place = input.place, .bytes = {value}};
 }
 
+static_assert(TrialMaker::kMostEdges * 2 * kPulse == 60 * kSecond);
+
 /// As many as a counter counts, or one more or less.
 Trial TrialMaker::pulses(const State& now) {
-  const std::uint32_t count = std::min(chance_.one_of(words_.counts), kMostPulses);
+  const std::uint32_t count = std::min(chance_.one_of(words_.counts), kMostEdges);
   const Vocabulary::Bytes& input = chance_.one_of(words_.inputs);
   std::uint8_t bit = 0;
   while ((bit & input.mask) == 0) bit = static_cast<std::uint8_t>(1u << chance_.below(8));

@@ -35,11 +35,16 @@ class TrialMaker {
  public:
   TrialMaker(Vocabulary words, std::uint64_t seed) : words_(std::move(words)), chance_(seed) {}
 
+  /// The most edges that come one after the other: a minute of them. A counter that counts further is not counted to its
+  /// end.
+  static constexpr std::uint32_t kMostEdges = 6000;
+
   /// What may come next, for a PLC in this state: one stimulus, or an input that is switched on and off as often as a
   /// counter counts. Time alone goes by if nothing else reaches the program.
   Trial next(const State& now);
 
-  /// The state some scans after the last of next(): of memory that was set it is learnt which comparisons it decides.
+  /// The state some scans after the last of next(): of memory that was set it is learnt which comparisons it decides, and
+  /// what was learnt is forgotten if it proves wrong a few times running. Once alone may be for another reason.
   void learn(const State& after);
 
   /// Any frame: a request that was answered, changed in its fields, lengths, CRC and gaps, cut, doubled or glued to another
@@ -60,7 +65,7 @@ class TrialMaker {
   struct Decided {
     std::size_t comparison = 0;  ///< in words_
     bool against = false;        ///< it shrinks as the memory grows
-    bool operator==(const Decided&) const = default;
+    int wrong = 0;               ///< times running that it was not so
   };
   /// Memory that was set last.
   struct Set {
@@ -69,6 +74,7 @@ class TrialMaker {
     std::vector<std::uint32_t> differences;  ///< of all comparisons, before it was set
   };
 
+  static void note(std::vector<Decided>& known, std::size_t comparison, bool against, bool is_so);
   Time wait();
   std::uint32_t value();
   std::uint32_t value_for(const Vocabulary::Bytes& place, const State& now);

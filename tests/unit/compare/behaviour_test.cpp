@@ -62,6 +62,26 @@ TEST(Behaviour, ACounterGetsAsManyEdgesAsItsPresetAsks) {
   EXPECT_EQ(both.result.difference->what, "Q0.0");
 }
 
+TEST(Behaviour, ACounterThatCountsFarGetsThereToo) {
+  const std::string counts = "LD I0.4\nLD I0.5\nCTU C1, 500\nLD C1\n= Q0.0\nMEND\n";
+  const Behaviours both(counts, with_change(counts, "C1, 500", "C1, 501"));
+  ASSERT_TRUE(both.result.difference);
+  EXPECT_EQ(both.result.difference->what, "Q0.0");
+  EXPECT_TRUE(both.result.beyond.empty());
+}
+
+TEST(Behaviour, ACounterThatCountsFartherThanEdgesComeIsSaidToBeOne) {
+  const std::string counts = "LD I0.4\nLD I0.5\nCTU C1, 20000\nLD C1\n= Q0.0\nMEND\n";
+  const Behaviours both(counts, with_change(counts, "C1, 20000", "C1, 30000"), {.runs = 20});
+  EXPECT_FALSE(both.result.difference);
+  EXPECT_EQ(both.result.beyond, (std::vector<std::uint32_t>{20000, 30000}));
+  EXPECT_NE(
+      behaviour_text(both.older, both.newer, both.result)
+          .find("  not counted to the end: counters with presets of 20000 and 30000; no input gets more than 6000 edges "
+                "running\n"),
+      std::string::npos);
+}
+
 TEST(Behaviour, MemoryThatOnlyAPointerReadsIsSetToo) {
   const std::string points =
       "LD SM0.1\nMOVD &VB100, VD50\nLD SM0.0\nMOVW *VD50, VW60\nLDW>= VW60, 50\nA V200.0\n= Q0.7\nMEND\n";
