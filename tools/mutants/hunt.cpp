@@ -49,7 +49,10 @@ std::vector<Pack> packs_of(const std::vector<Scenario>& scenarios, const Benches
     }
     bench.observed.coverage = true;
     const ScenarioResult as_it_is = run_scenario(scenarios[i], bench);
-    if (settings.stop.stop_requested()) break;
+    if (settings.stop.stop_requested()) {
+      result.interrupted = true;
+      break;
+    }
     if (as_it_is.outcome != ScenarioResult::Outcome::Passed) {
       ++(as_it_is.outcome == ScenarioResult::Outcome::Failed ? result.failing : result.left_out);
       continue;
@@ -135,7 +138,7 @@ MutantsResult hunt_mutants(const std::vector<Scenario>& scenarios, const Benches
     all.not_tried = mutations.size() - done;
     result.not_tried += all.not_tried;
   }
-  result.interrupted = settings.stop.stop_requested();
+  result.interrupted |= result.not_tried > 0;
   return result;
 }
 

@@ -39,7 +39,7 @@ struct MutantsResult {
   std::size_t left_out = 0;   ///< scenarios that are skipped, or about a system or a slave outside
   std::size_t failing = 0;    ///< scenarios that fail without a change, and are left out too
   std::size_t not_tried = 0;  ///< changes that an interruption left out, of all programs
-  bool interrupted = false;
+  bool interrupted = false;   ///< before the last change was tried
 };
 
 struct HuntSettings {
