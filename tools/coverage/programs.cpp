@@ -1,6 +1,5 @@
 #include "tools/coverage/programs.hpp"
 
-#include <atomic>
 #include <utility>
 
 #include "tools/coverage/coverage_report.hpp"
@@ -33,8 +32,7 @@ std::vector<bool> reachable_ops(const ControlFlow& flow) {
 }
 
 Inspection for_places(std::shared_ptr<const Program> program) {
-  static const std::atomic<bool> at_once = true;
-  return Inspection(std::move(program), {.stop = StopToken(at_once)});
+  return {std::move(program), Inspection::WithoutPointers::Yes};
 }
 
 }  // namespace s7200::tools

@@ -43,17 +43,25 @@ void shorten_receptions(Facts& facts) {
   }
 }
 
-}  // namespace
-
-Facts facts_of(const Program& program, const Waiter& waiter) {
-  ControlFlow flow = control_flow(program);
-  Pointers pointers(program, flow, waiter);
+Facts facts_with(const Program& program, ControlFlow flow, Pointers pointers) {
   Facts facts{program, std::move(flow), std::move(pointers), {}, {}};
   for (std::uint32_t op = 0; op < program.ops.size(); ++op) facts.effects.push_back(effects_of(program, op, facts.pointers));
   shorten_receptions(facts);
   shorten_profiles(facts);
   facts.networks = network_numbers(program, facts.flow);
   return facts;
+}
+
+}  // namespace
+
+Facts facts_of(const Program& program, const Waiter& waiter) {
+  ControlFlow flow = control_flow(program);
+  Pointers pointers(program, flow, waiter);
+  return facts_with(program, std::move(flow), std::move(pointers));
+}
+
+Facts facts_without_pointers(const Program& program) {
+  return facts_with(program, control_flow(program), Pointers::nothing_known(program));
 }
 
 std::optional<std::vector<std::int64_t>> constants_written(const Facts& facts, std::uint32_t at, Width width) {

@@ -22,6 +22,9 @@ struct Facts {
 /// `program` must live as long as what is returned. If `waiter` asks to end, less is known of pointers.
 Facts facts_of(const Program& program, const Waiter& waiter = {});
 
+/// The same as if nothing were known of pointers. Where they lead takes longer to work out than many a run.
+Facts facts_without_pointers(const Program& program);
+
 /// The constants that instructions move to memory at `at`, a byte, a word or a double word; nothing if one of those that
 /// write there does anything else.
 std::optional<std::vector<std::int64_t>> constants_written(const Facts& facts, std::uint32_t at, Width width);

@@ -13,6 +13,7 @@
 #include "interpreter/base/split_mix.hpp"
 #include "tests/support/plc.hpp"
 #include "tools/coverage/coverage_files.hpp"
+#include "tools/coverage/programs.hpp"
 
 namespace s7200::tools::coverage_test {
 namespace {
@@ -318,6 +319,13 @@ TEST(Coverage, SeveralRunsAreMergedByProgram) {
   all.add(other.map, other.sink.tried());
   ASSERT_EQ(all.programs().size(), 1U);
   EXPECT_EQ(all.least(), 100);
+}
+
+TEST(Coverage, PlacesAreNamedWithoutFollowingPointersAndWithoutAnInterruption) {
+  const Inspection places = for_places(test::program_of("LD SM0.0\nMOVD &VB10, VD0\nMOVW *VD0, VW20\nMEND\n"));
+  EXPECT_FALSE(places.was_interrupted());
+  EXPECT_FALSE(places.facts.pointers.is_known(image::kV));
+  EXPECT_TRUE(Inspection(places.program).facts.pointers.is_known(image::kV));
 }
 
 }  // namespace

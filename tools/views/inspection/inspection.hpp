@@ -58,6 +58,11 @@ struct Inspection {
   explicit Inspection(std::shared_ptr<const Program> inspected, Waiter waits = {})
       : program(std::move(inspected)), waiter(std::move(waits)), facts(facts_of(*program, waiter)) {}
 
+  /// For naming places: where pointers lead is left open.
+  enum class WithoutPointers : std::uint8_t { Yes };
+  Inspection(std::shared_ptr<const Program> inspected, WithoutPointers)
+      : program(std::move(inspected)), facts(facts_without_pointers(*program)) {}
+
   bool was_interrupted() const { return waiter.stop.stop_requested(); }
 };
 
