@@ -6,6 +6,8 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -176,20 +178,16 @@ void find_double_coils(const Facts& facts, stl::Diagnostics& diagnostics) {
         !other && output && earlier.in_every_scan && interrupts_other(facts.flow, calls, coil, *earlier.in_every_scan)
             ? earlier.in_every_scan
             : std::nullopt;
-    if (scan)
-      diagnostics.push_back(
-          warn(Warning::DoubleCoil, place(program, coil),
-               fmt::format("{} is already a coil in line {}, which every scan executes: it decides, not this one of an "
-                           "interrupt",
-                           written(program, coil, 0), line(program, *scan)),
-               "join both conditions in one rung, or set a bit here that the rung in the scan looks at",
-               fmt::format("coil {}", written(program, coil, 0))));
-    if (other)
+    const auto add = [&](std::uint32_t first, std::string_view rest, std::string hint) {
+      const std::string name = written(program, coil, 0);
       diagnostics.push_back(warn(Warning::DoubleCoil, place(program, coil),
-                                 fmt::format("{} is already a coil in line {}; {}", written(program, coil, 0),
-                                             line(program, *other), winner_text(facts, coil, *other)),
-                                 "join both conditions in one rung, or use S and R",
-                                 fmt::format("coil {}", written(program, coil, 0))));
+                                 fmt::format("{} is already a coil in line {}{}", name, line(program, first), rest),
+                                 std::move(hint), fmt::format("coil {}", name)));
+    };
+    if (scan)
+      add(*scan, ", which every scan executes: it decides, not this one of an interrupt",
+          "join both conditions in one rung, or set a bit here that the rung in the scan looks at");
+    if (other) add(*other, "; " + winner_text(facts, coil, *other), "join both conditions in one rung, or use S and R");
     earlier.add(paths, coil);
   }
 }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "interpreter/analysis/effects/memory_names.hpp"
@@ -213,28 +215,24 @@ void find_skipped_timers(const Facts& facts, stl::Diagnostics& diagnostics) {
     if (!runs_timer(now) || timer_base(now[2].at).base != 100 * kMillisecond) continue;
     const bool counts_hours = now.instruction->mnemonic == "TONR";  // it may be meant to count only while it is called
     const auto call = uses[now[2].at] == 1 && !counts_hours ? call_under_a_condition(facts, calls, op) : std::nullopt;
+    const std::string timer = written(program, op, 0);
+    const auto add = [&](std::string message, std::string hint, std::string_view word, std::uint32_t where) {
+      diagnostics.push_back(warn(Warning::SkippedTimer, place(program, op), timer + std::move(message), std::move(hint),
+                                 fmt::format("{} {}", word, line(program, where))));
+    };
     if (call)
-      diagnostics.push_back(
-          warn(Warning::SkippedTimer, place(program, op),
-               fmt::format("{} does not count while line {} does not call its routine: 100 ms timers count when they are "
-                           "executed",
-                           written(program, op, 0), line(program, *call)),
-               "call the routine in every scan and hand the condition over, or use a 10 ms timer",
-               fmt::format("call {}", line(program, *call))));
+      add(fmt::format(" does not count while line {} does not call its routine: 100 ms timers count when they are executed",
+                      line(program, *call)),
+          "call the routine in every scan and hand the condition over, or use a 10 ms timer", "call", *call);
     if (!loops.empty())
-      diagnostics.push_back(
-          warn(Warning::SkippedTimer, place(program, op),
-               fmt::format("{} is executed in each pass of the loop from line {}: a 100 ms timer has to be executed once in "
-                           "each scan to keep time",
-                           written(program, op, 0), line(program, loops.back())),
-               "move it out of the loop", fmt::format("loop {}", line(program, loops.back()))));
-    if (op >= leads_to || call || !loops.empty()) continue;
-    diagnostics.push_back(
-        warn(Warning::SkippedTimer, place(program, op),
-             fmt::format("{} does not count while line {} jumps over it: 100 ms timers count when they are executed",
-                         written(program, op, 0), line(program, jump)),
-             "move it out of what is jumped over, and let its input depend on the condition",
-             fmt::format("jump {}", line(program, jump))));
+      add(fmt::format(" is executed in each pass of the loop from line {}: a 100 ms timer has to be executed once in each "
+                      "scan to keep time",
+                      line(program, loops.back())),
+          "move it out of the loop", "loop", loops.back());
+    if (op < leads_to && !call && loops.empty())
+      add(fmt::format(" does not count while line {} jumps over it: 100 ms timers count when they are executed",
+                      line(program, jump)),
+          "move it out of what is jumped over, and let its input depend on the condition", "jump", jump);
   }
 }
 
