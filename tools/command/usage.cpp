@@ -4,13 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 
-#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/text/nearest.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/base/text/wrapped.hpp"
+#include "tools/host/files/file_system.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -31,8 +30,7 @@ std::string there_are(const std::vector<std::string_view>& verbs) {
 
 /// `'chek' is not a verb; is check meant?`
 std::string not_a_verb(const std::string& word, const std::vector<std::string>& verbs) {
-  std::error_code error;
-  if (std::filesystem::is_regular_file(file_path(word), error))
+  if (file_system::is_file(word))
     return fmt::format("'{0}' is a file, and the verb before it is missing; write for example s7200 run {0}", word);
   std::vector<std::string_view> known(verbs.begin(), verbs.end());
   known.insert(known.end(), {"help", "version"});

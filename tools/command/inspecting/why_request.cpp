@@ -1,19 +1,13 @@
 #include "tools/command/inspecting/why_request.hpp"
 
-#include <filesystem>
 #include <utility>
 
-#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "tools/host/files/file_system.hpp"
 #include "tools/session/words/words.hpp"
 
 namespace s7200::tools {
 namespace {
-
-bool is_file(const std::string& word) {
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(file_path(word), ignored);
-}
 
 bool is_not(const std::string& word) { return stl::lower_case(word) == "not"; }
 bool is_all(const std::string& word) { return stl::lower_case(word) == "all"; }
@@ -24,7 +18,8 @@ WhyRequest why_request(std::vector<std::string> words) {
   WhyRequest request{.paths = {words.front()}};
   words.erase(words.begin());
   std::vector<std::string> about;
-  for (std::string& word : words) (about.empty() && is_file(word) ? request.paths : about).push_back(std::move(word));
+  for (std::string& word : words)
+    (about.empty() && file_system::is_file(word) ? request.paths : about).push_back(std::move(word));
   request.all = about.size() > 1 && is_all(about.back());
   if (request.all) about.pop_back();
   request.not_so = about.size() > 1 && (is_not(about.front()) || is_not(about.back()));

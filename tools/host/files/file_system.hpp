@@ -42,6 +42,12 @@ struct Found {
 std::optional<Found> look_at(const std::string& path);
 std::optional<Found> look_behind(const std::string& path);
 
+/// Whether it is a file, or a link that leads to one.
+inline bool is_file(const std::string& path) {
+  const auto found = look_behind(path);
+  return found && found->kind == Found::Kind::File;
+}
+
 /// What standard output (1) and standard error (2) go to.
 std::optional<Found> look_at_descriptor(int fd);
 
