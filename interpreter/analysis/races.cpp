@@ -329,6 +329,7 @@ class RaceFinder {
     if (calls_.enabling.empty()) return {};
     main_ = OpsInOrder(facts_, accesses_, first_scan_, facts_.program.model->call_depth).of(0);
     not_followed_ = main_.not_followed;
+    for (std::size_t step = 0; step < main_.steps.size(); ++step) steps_of_call_[main_.steps[step].call].push_back(step);
     for (std::uint32_t i = 0; i < calls_.nodes.size(); ++i)
       if (!calls_.nodes[i].events.empty()) with_interrupt(i);
     std::ranges::sort(races_, {}, [](const Race& race) { return std::tuple(race.first, race.last, race.interrupt); });
@@ -346,6 +347,7 @@ class RaceFinder {
   void with_interrupt(std::uint32_t routine) {
     interrupt_ = routine;
     foreign_.clear();
+    counting_.clear();
     std::set<std::tuple<std::uint32_t, std::uint64_t, std::uint64_t, Role>> known;  // a routine may be called often
     const std::vector<bool> nothing(facts_.program.ops.size());
     const Unfolded all = OpsInOrder(facts_, accesses_, nothing, facts_.program.model->interrupt_call_depth).of(routine);
@@ -363,6 +365,7 @@ class RaceFinder {
       if (is_unread(op(step))) continue;
       for (const Access& access : main_.steps[step].accesses) {
         if (access.bits.count == 0 || !is_shared(access.bits) || !writer_of(access.bits)) continue;
+        if (counts(access)) counting_.emplace_back(step, &access);
         if (access.role == Role::In) follow(step, access);
         if (access.role == Role::In && !op(step).is_contact) find_mixed(step, access);
         if (access.role == Role::Out && !access.somewhere) keep(step, access);
@@ -600,17 +603,20 @@ class RaceFinder {
 
   /// A loop that is closed by a jump backwards, and counts what the program has written in front of it.
   void find_shared_count(std::size_t jump) {
-    const std::uint32_t call = main_.steps[jump].call, label = op(jump).target;
+    const std::uint32_t label = op(jump).target;
     if (label >= main_.steps[jump].op) return;
-    std::size_t begin = jump;
-    while (begin > 0 && !(main_.steps[begin].call == call && main_.steps[begin].op == label)) --begin;
-    for (std::size_t step = begin; step < jump; ++step)
-      for (const Access& access : main_.steps[step].accesses) {
-        const bool counts = access.role == Role::InOut && access.certain && access.of_operand && is_shared(access.bits);
-        const Foreign* const writer = counts && access.bits.count >= kBitsOfByte ? writer_of(access.bits) : nullptr;
-        const auto written = writer ? written_in_front(begin, access.bits) : std::nullopt;
-        if (written) add(Race::Kind::Scratch, access.bits, {*written, jump}, *writer, true);
-      }
+    const std::vector<std::size_t>& steps = steps_of_call_.at(main_.steps[jump].call);
+    const auto begin = std::ranges::lower_bound(steps, label, {}, [&](std::size_t step) { return main_.steps[step].op; });
+    if (main_.steps[*begin].op != label) return;
+    auto count = std::ranges::lower_bound(counting_, *begin, {}, &Counting::first);
+    for (; count != counting_.end() && count->first < jump; ++count)
+      if (const auto written = written_in_front(*begin, count->second->bits))
+        add(Race::Kind::Scratch, count->second->bits, {*written, jump}, *writer_of(count->second->bits), true);
+  }
+
+  /// Whether an instruction surely works on a value in its place.
+  static bool counts(const Access& access) {
+    return access.role == Role::InOut && access.certain && access.of_operand && access.bits.count >= kBitsOfByte;
   }
 
   /// The step, not far in front of another one of the same execution, that writes some memory.
@@ -765,6 +771,9 @@ class RaceFinder {
   Protection protection_;
   std::uint32_t interrupt_ = 0;
   std::vector<Foreign> foreign_{};
+  using Counting = std::pair<std::size_t, const Access*>;
+  std::vector<Counting> counting_{};                                      // steps that count what the interrupt writes
+  std::map<std::uint32_t, std::vector<std::size_t>> steps_of_call_{};     // in the order of their ops
   std::map<std::pair<std::uint64_t, std::uint64_t>, bool> read_first_{};  // what is_read_first() has answered
   std::vector<Race> races_{};
   std::vector<NotFollowed> not_followed_{};

@@ -42,6 +42,7 @@ inline constexpr std::array<CounterInfo, 6> kCounters{{
 /// The modes that a counter has, as a set of bits: mode 3 is bit 3. Without modes the CPU does not have the counter.
 using CounterModes = std::uint16_t;
 inline constexpr CounterModes kMode0 = 0x001, kAllModes = 0xFFF, kMode12 = 0x1000;
+inline constexpr std::uint8_t kLastMode = 12;              ///< of CPUs 22x (facts 10.4)
 inline constexpr CounterModes kModesWithoutStart = 0x6DB;  ///< 0 1 3 4 6 7 9 10
 
 constexpr bool has_reset(std::uint8_t mode) { return mode % 3 != 0; }

@@ -149,6 +149,8 @@ namespace sm::pulses {
 inline constexpr std::array<std::uint32_t, 2> kStatus{byte(66), byte(76)};
 inline constexpr std::array<std::uint32_t, 2> kSegment{byte(166), byte(176)};       ///< number of the one in progress
 inline constexpr std::array<std::uint32_t, 2> kProfileTable{byte(168), byte(178)};  ///< word: offset in V
+/// SMB166 to SMB185, all that profiles have here, of both outputs (facts 10.4).
+inline constexpr std::uint32_t kProfiles = byte(166), kProfilesBytes = 20;
 inline constexpr std::uint32_t kSegmentBytes = 8;  ///< of a profile; in front of the first is their number, a byte
 enum Status : std::uint8_t {
   kDeltaError = 0x10,  ///< a segment of the profile would have left the range of cycle times

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "interpreter/model/counters.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/model/ports.hpp"
@@ -130,6 +131,7 @@ struct Program {
   Looks looks{};
   bool uses_local_memory = false;
   std::array<bool, kPorts.size()> receives_messages{};  ///< with RCV, by port
+  std::array<CounterModes, kCounters.size()> counter_modes{};  ///< that it gives each high-speed counter, with HDEF
   Areas pointed_at = 0;                                 ///< areas of the addresses that it makes pointers of, with &
   std::array<Reach, kReaches> reach{};                  ///< by the top byte of a pointer
   std::vector<std::uint32_t> reals;  ///< double words that some instruction uses as a real: places in the image, sorted

@@ -51,15 +51,28 @@ class Listener {
         if (part.count <= 32) add_once(words_.commands, command_at(part));
   }
 
-  bool is_written(const Bits& bits) const {
+  /// Sorted, none next to another one.
+  std::vector<Bits> all_written() const {
+    std::vector<Bits> all, joined;
     for (const auto& effects : facts_.effects)
       for (const MemoryAccess& access : effects)
-        if (access.writes() && access.bits.overlaps(bits) && !is_anywhere(facts_.program, access)) return true;
-    return false;
+        if (access.writes() && access.bits.count != 0 && !is_anywhere(facts_.program, access)) all.push_back(access.bits);
+    std::ranges::sort(all, {}, &Bits::first);
+    for (const Bits& bits : all)
+      if (joined.empty() || joined.back().end() < bits.first)
+        joined.push_back(bits);
+      else
+        joined.back().count = std::max(joined.back().end(), bits.end()) - joined.back().first;
+    return joined;
   }
 
   /// What is read through a pointer that leads to known addresses, and that nothing writes.
   void add_pointed_at() {
+    const std::vector<Bits> written = all_written();
+    const auto is_written = [&](const Bits& bits) {
+      const auto first = std::ranges::upper_bound(written, bits.first, {}, &Bits::end);
+      return first != written.end() && first->overlaps(bits);
+    };
     for (const auto& effects : facts_.effects)
       for (const MemoryAccess& access : effects) {
         const Area area = area_of(access.bits);

@@ -1,6 +1,8 @@
 #include "interpreter/analysis/effects/fast_units.hpp"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 
 #include "interpreter/analysis/effects/facts.hpp"
 #include "interpreter/base/bytes.hpp"
@@ -22,16 +24,7 @@ bool names_unit(const Op& op) {
   const std::size_t units = op.instruction->effect == Effect::ProgramsPulses ? kStatus.size() : kCounters.size();
   return !op[0].unread() && op[0].at < units;
 }
-bool is_mode(const Operand& mode) { return !mode.unread() && mode.at <= 12; }
-
-/// The modes that the program gives a counter.
-CounterModes modes_in(const Program& program, std::uint32_t counter) {
-  CounterModes modes = 0;
-  for (const Op& op : program.ops)
-    if (op.instruction->structure == Structure::DefineCounter && names_unit(op) && op[0].at == counter && is_mode(op[1]))
-      modes = static_cast<CounterModes>(modes | 1u << op[1].at);
-  return modes;
-}
+bool is_mode(const Operand& mode) { return !mode.unread() && mode.at <= kLastMode; }
 
 class UnitAccesses {
  public:
@@ -70,7 +63,7 @@ class UnitAccesses {
     add(possible(bytes_at(info.status, 1), Role::InOut));
     add(possible(bytes_at(info.status + sm::counter::kControl, 9), Role::In));
     add(possible(bytes_at(image::kHC + 4 * counter, 4), Role::InOut));
-    const CounterModes modes = modes_in(program_, counter);
+    const CounterModes modes = program_.counter_modes[counter];
     std::uint32_t points = 0;
     for (std::uint8_t mode = 0; modes >> mode; ++mode)
       if (modes >> mode & 1) points |= points_of(info, mode);
@@ -82,7 +75,7 @@ class UnitAccesses {
     add(possible(bytes_at(kStatus[output] + kControl, 9), Role::In));
     add(possible({image::kOutputs * 8u + output, 1}, Role::InOut));
     for (std::uint32_t counter = 0; counter < kCounters.size(); ++counter)
-      if (kCounters[counter].pulse_output == output && modes_in(program_, counter) & kMode12) add_counted_pulse(counter);
+      if (kCounters[counter].pulse_output == output && program_.counter_modes[counter] & kMode12) add_counted_pulse(counter);
     if (profile_pointer_of(program_, op_)) add_profile(output);
   }
 
@@ -119,14 +112,11 @@ bool is_table(const MemoryAccess& access) {
 }
 
 /// The number of the segment in progress, and where the table begins.
-bool is_of_profile(const MemoryAccess& access) {
-  const Bits all{sm::byte(166) * 8u, 20 * 8};
-  return all.contains(access.bits);
-}
+bool is_of_profile(const MemoryAccess& access) { return bytes_at(kProfiles, kProfilesBytes).contains(access.bits); }
 
 bool takes_profile(std::int64_t control) { return (control & (kProfile | kPwm)) == kProfile; }
 
-/// What is known of the profiles of a PLS.
+/// What is known of the profiles of a pulse output.
 class Profiles {
  public:
   Profiles(const Facts& facts, std::uint32_t output) : facts_(facts), output_(output) {
@@ -137,6 +127,13 @@ class Profiles {
   }
 
   bool none() const { return none_; }
+
+  /// The tables, as far as they may go; nothing if it is not known where they begin.
+  const std::vector<MemoryAccess>& tables() {
+    if (!tables_) find_tables();
+    return *tables_;
+  }
+
   /// Where the tables begin, offsets in V; nothing if that is not known.
   std::vector<std::uint32_t> offsets() const {
     std::vector<std::uint32_t> all;
@@ -166,6 +163,23 @@ class Profiles {
   }
 
  private:
+  void find_tables() {
+    const std::uint32_t size = facts_.program.model->size_of(Area::V);
+    tables_.emplace();
+    for (const std::uint32_t offset : offsets())
+      if (offset < size) tables_->push_back(table_at(offset));
+  }
+
+  MemoryAccess table_at(std::uint32_t offset) const {
+    constexpr std::uint32_t kMostSegments = 255;
+    const std::uint32_t left = facts_.program.model->size_of(Area::V) - offset;
+    const auto known = segments(offset);
+    const std::uint32_t bytes = std::min(1 + kSegmentBytes * known.value_or(kMostSegments), left);
+    MemoryAccess table = possible(bytes_at(image::kV + offset, bytes), Role::In);
+    table.by_pointer = !known;
+    return table;
+  }
+
   Pointers::Unknown of_offset() const {
     const Bits word = bytes_at(kProfileTable[output_], 2);
     for (std::uint32_t op = 0; op < facts_.effects.size(); ++op)
@@ -179,28 +193,14 @@ class Profiles {
   std::uint32_t output_;
   bool none_ = false;
   std::optional<std::vector<std::int64_t>> offsets_{};
+  std::optional<std::vector<MemoryAccess>> tables_{};
 };
 
-/// The table at an offset, as far as it may go.
-MemoryAccess table_at(const Facts& facts, std::uint32_t offset, std::optional<std::uint32_t> segments) {
-  constexpr std::uint32_t kMostSegments = 255;
-  const std::uint32_t left = facts.program.model->size_of(Area::V) - offset;
-  MemoryAccess table =
-      possible(bytes_at(image::kV + offset, std::min(1 + kSegmentBytes * segments.value_or(kMostSegments), left)), Role::In);
-  table.by_pointer = !segments;
-  return table;
-}
-
-void shorten(Facts& facts, std::uint32_t op) {
-  const Profiles profiles(facts, facts.program.ops[op][0].at);
-  const std::vector<std::uint32_t> offsets = profiles.offsets();
-  if (!profiles.none() && offsets.empty()) return;
-  std::vector<MemoryAccess>& effects = facts.effects[op];
+void shorten(std::vector<MemoryAccess>& effects, Profiles& profiles) {
+  if (!profiles.none() && profiles.offsets().empty()) return;
   std::erase_if(effects, is_table);
   if (profiles.none()) return void(std::erase_if(effects, is_of_profile));
-  const std::uint32_t size = facts.program.model->size_of(Area::V);
-  for (const std::uint32_t offset : offsets)
-    if (offset < size) effects.push_back(table_at(facts, offset, profiles.segments(offset)));
+  std::ranges::copy(profiles.tables(), std::back_inserter(effects));
 }
 
 }  // namespace
@@ -216,8 +216,14 @@ std::optional<std::uint32_t> profile_pointer_of(const Program& program, const Op
 }
 
 void shorten_profiles(Facts& facts) {
-  for (std::uint32_t op = 0; op < facts.effects.size(); ++op)
-    if (profile_pointer_of(facts.program, facts.program.ops[op])) shorten(facts, op);
+  std::array<std::optional<Profiles>, kStatus.size()> of_output;
+  for (std::uint32_t op = 0; op < facts.effects.size(); ++op) {
+    const Op& starts = facts.program.ops[op];
+    if (!profile_pointer_of(facts.program, starts)) continue;
+    auto& profiles = of_output[starts[0].at];
+    if (!profiles) profiles.emplace(facts, starts[0].at);
+    shorten(facts.effects[op], *profiles);
+  }
 }
 
 std::optional<Pointers::Unknown> unknown_profile(const Facts& facts, std::uint32_t op) {

@@ -797,6 +797,7 @@ class Checker {
       note_timer(program->ops.back(), *program);
       note_reals(placed_[i], program->ops.back(), *program);
       note_reception(program->ops.back(), *program);
+      note_counter_mode(program->ops.back(), *program);
       program->uses_local_memory |= std::ranges::any_of(program->ops.back().operand, is_local);
     }
     follow_eno(*program);
@@ -890,6 +891,14 @@ class Checker {
 
   static void note_reception(const Op& op, Program& program) {
     if (op.instruction->effect == Effect::Receives && !op[1].unread()) program.receives_messages.at(op[1].at) = true;
+  }
+
+  /// In a program with errors the numbers may be any.
+  static void note_counter_mode(const Op& op, Program& program) {
+    const bool defines = op.instruction->structure == Structure::DefineCounter && !op[0].unread() && !op[1].unread();
+    if (!defines || op[0].at >= program.counter_modes.size() || op[1].at > kLastMode) return;
+    CounterModes& modes = program.counter_modes[op[0].at];
+    modes = static_cast<CounterModes>(modes | 1u << op[1].at);
   }
 
   /// Timers that are also updated outside their instructions.

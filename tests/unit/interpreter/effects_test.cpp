@@ -131,8 +131,12 @@ TEST(Effects, ACounterHasItsOwnSpecialMemoryAndInputs) {
 TEST(Effects, OfACounterThatDoesNotExistNothingIsKnown) {
   const auto decoded = decode_program(read_text("LD SM0.1\nHDEF 9, 40\nHDEF 3, 11\nHSC 3\nPLS 7\nMEND\n", "x"), model(),
                                       default_times(model()));
-  for (std::uint32_t op = 0; op < decoded.known->ops.size(); ++op)
-    EXPECT_LT(effects_of(*decoded.known, op, Pointers(*decoded.known)).size(), 20U);
+  const Program& program = *decoded.known;
+  EXPECT_EQ(accesses(program, 1, kNoOperand), "writes SM4.3+1 may");
+  EXPECT_EQ(accesses(program, 3, kNoOperand),
+            "writes SM4.3+1 may; changes SM136.0+8 may; reads SM137.0+72 may; changes HC12.0+32 may")
+      << "none of the inputs of a mode that it does not have";
+  EXPECT_EQ(accesses(program, 4, kNoOperand), "writes SM4.3+1 may");
 }
 
 TEST(Effects, APulseOutputChangesWhatCountsItsPulses) {

@@ -2,6 +2,7 @@
 #include "serial_sim/modbus/crc.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tests/support/inspected.hpp"
+#include "tools/trials/chance.hpp"
 #include "tools/trials/shortened.hpp"
 #include "tools/trials/trial_bench.hpp"
 #include "tools/trials/trial_text.hpp"
@@ -91,6 +92,48 @@ TEST(Vocabulary, KnowsWhatPointersReadAndWhatDecides) {
   std::vector<std::uint8_t> image(image::kSize);
   image[image::kV + 61] = 48;
   EXPECT_EQ(words.comparisons[0].difference(image), std::uint32_t(-2));
+}
+
+/// Of so many values that VW10 is set to, those at the boundary of VW20 > 12345, as if VW10 decided that.
+int at_the_boundary(TrialMaker& maker, const State& now, int draws) {
+  int hits = 0;
+  for (; draws > 0; --draws) {
+    const std::uint16_t value = load16(maker.next(now).front().bytes.data());
+    hits += value >= 12344 && value <= 12346;
+  }
+  return hits;
+}
+
+TEST(TrialMaker, WhatIsLearntByCoincidenceIsForgottenAgain) {
+  const auto before = std::make_unique<State>(), after = std::make_unique<State>();
+  TrialMaker maker({.inputs = {},
+                    .analog = {},
+                    .commands = {{image::kV + 10, 2, 0xFF}},
+                    .comparisons = {{.left = {image::kV + 20, 0}, .right = {{}, 12345}, .count = 2}},
+                    .constants = {},
+                    .presets = {}},
+                   1);
+  EXPECT_EQ(at_the_boundary(maker, *before, 60), 0);
+  store16(&after->image[image::kV + 20], load16(maker.next(*before).front().bytes.data()));
+  maker.learn(*after);
+  EXPECT_GT(at_the_boundary(maker, *before, 60), 20);
+  for (int i = 0; i < 10; ++i) {
+    maker.next(*before);
+    maker.learn(*before);
+  }
+  EXPECT_EQ(at_the_boundary(maker, *before, 60), 0);
+}
+
+TEST(Vocabulary, WhatOverlappingWritesReachIsNotSet) {
+  const Inspection inspected_program = inspected(
+      "LD SM0.0\nMOVD &VB10, VD0\nMOVW *VD0, VW20\nMOVD &VB30, VD4\nMOVW *VD4, VW22\nMOVB 1, VB8\nMOVD 2, VD7\nMEND\n", {},
+      *find_cpu("214"));
+  const Vocabulary words = vocabulary_of(inspected_program.facts);
+  const auto sets = [&](std::uint32_t place) {
+    return std::ranges::find(words.commands, image::kV + place, &Vocabulary::Bytes::place) != words.commands.end();
+  };
+  EXPECT_FALSE(sets(10)) << "its first byte is the last of VD7";
+  EXPECT_TRUE(sets(30));
 }
 
 TEST(Shortened, LeavesOutWhatDoesNotMatter) {
