@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kPoints = 8 * image::kPointBytes, kMostKept = 2000, kMostShortening = 600;
 constexpr std::uint64_t kLeastRuns = 400;
 constexpr Time kSettles = 100 * kMillisecond, kAnswers = 400 * kMillisecond, kJitter = 2 * kMillisecond;
-constexpr Time kMostShortened = 3600 * kSecond;  ///< simulated while a difference is made shorter
+constexpr std::size_t kMostStimuli = 20'000;  ///< of all trials while a difference is made shorter
 constexpr int kLater = 4, kLonger = 3;  ///< times that a difference is tried again with later inputs, with longer ones
 
 using Edges = std::array<std::vector<Time>, kPoints>;
@@ -346,11 +346,10 @@ class Search {
 
   void finish() {
     watch(false);
-    Time simulated = 0;
+    std::size_t stimuli = 0;
     const auto holds = [&](const Trial& trial) {
-      const bool all = simulated < kMostShortened && persists(trial);
-      simulated += pair_.old_bench.time();
-      return all;
+      stimuli += trial.size();
+      return stimuli < kMostStimuli && persists(trial);
     };
     const Trial shortest = shortened(result_.difference->trial, holds, kMostShortening);
     watch(false);

@@ -41,13 +41,29 @@ std::vector<std::string> words(const Trial& trial) {
   return all;
 }
 
+constexpr std::size_t kManyPairs = 4;
+
+/// How often stimulus `first` and the next one come again, one after the other: the pulses that a counter counts.
+std::size_t further_pairs(const std::vector<std::string>& does, std::size_t first) {
+  std::size_t end = first + 2;
+  while (end < does.size() && does[end] == does[end - 2]) ++end;
+  return end > does.size() ? 0 : (end - first) / 2 - 1;
+}
+
 }  // namespace
 
 std::string trial_text(const Trial& trial, const std::vector<Time>& begun) {
   const auto does = words(trial);
   std::string text;
-  for (std::size_t i = 0; i < trial.size(); ++i)
-    text += fmt::format("    {:>10}  {}\n", format_duration(begun[i], 3), does[i]);
+  const auto add = [&](std::size_t i) { text += fmt::format("    {:>10}  {}\n", format_duration(begun[i], 3), does[i]); };
+  for (std::size_t i = 0; i < trial.size();) {
+    const std::size_t pairs = further_pairs(does, i);
+    add(i++);
+    if (pairs < kManyPairs) continue;
+    add(i);
+    i += 1 + 2 * pairs;
+    text += fmt::format("    {:>10}  both {} times more, until {}\n", "…", pairs, format_duration(begun[i - 1], 3));
+  }
   return text;
 }
 

@@ -9,7 +9,8 @@
 
 namespace s7200::tools {
 
-/// A line for each stimulus: `    1.250 s  I0.1 = 1`, `    2.000 s  sends 01 03 00 00`. `begun`: when, since power-up.
+/// A line for each stimulus: `    1.250 s  I0.1 = 1`, `    2.000 s  sends 01 03 00 00`. Two that come again and again are in
+/// three lines. `begun`: when, since power-up.
 std::string trial_text(const Trial& trial, const std::vector<Time>& begun);
 
 /// `at_ns` and `does`, as in the text.

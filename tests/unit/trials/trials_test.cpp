@@ -177,6 +177,20 @@ TEST(Shortened, ACharacterWithWrongParityStaysTheOneThatItWas) {
   EXPECT_EQ(shortest[0].damaged, 1);
 }
 
+TEST(TrialText, PulsesThatComeAgainAndAgainAreInThreeLines) {
+  Trial trial;
+  std::vector<Time> begun;
+  for (std::uint8_t i = 0; i < 11; ++i) {
+    trial.push_back({.what = What::Input, .bytes = {static_cast<std::uint8_t>(i % 2 == 0 ? 1 : 0)}});
+    begun.push_back(i * 10 * kMillisecond);
+  }
+  EXPECT_EQ(trial_text(trial, begun),
+            "          0 ns  I0.0 = 1\n         10 ms  I0.0 = 0\n             …  both 4 times more, until 90 ms\n"
+            "        100 ms  I0.0 = 1\n");
+  trial.resize(9);
+  EXPECT_EQ(std::ranges::count(trial_text(trial, begun), '\n'), 9) << "few are all shown";
+}
+
 TEST(TrialBench, APowerFailureKeepsRetentiveMemoryAndTheLevelsOfInputs) {
   TrialBench bench(checked("LD SM0.1\nINCW VW4000\nLD I0.0\nS M20.0, 1\n= Q0.0\nMEND\n"), 0);
   bench.power_up();
