@@ -1,6 +1,7 @@
 #include "interpreter/analysis/bounds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <set>
 #include <string>
@@ -9,6 +10,7 @@
 #include "interpreter/analysis/flow/kept_away.hpp"
 #include "interpreter/analysis/longest_ways.hpp"
 #include "interpreter/analysis/timed_interrupts.hpp"
+#include "interpreter/analysis/times/interrupt_waits.hpp"
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
@@ -88,8 +90,9 @@ class BoundsBuilder {
     if (saves_to_eeprom()) bounds_.scan += timed_.eeprom_save;
     for (const EventUse& use : calls_.events)
       if (!use.attached.empty()) bounds_.events.push_back(event(use));
-    if (!bounds_.events.empty()) disabled_ = longest_disabled();
+    if (!bounds_.events.empty()) find_disabled();
     for (Bounds::OfEvent& event : bounds_.events) find_latency(event);
+    bounds_.load = load_of(sources_until(Queue::Timed));
     bounds_.scan_with_interrupts = with_interrupts();
     for (std::size_t port = 0; port < timed_.model->ports; ++port)
       if (const auto found = answer(port)) bounds_.answers.push_back(*found);
@@ -251,9 +254,15 @@ class BoundsBuilder {
     return of;
   }
 
-  /// The longest time from a DISI to its ENI. Nothing: interrupts may stay disabled for longer than is known.
-  std::optional<Time> longest_disabled() const {
-    const auto stretches = disabled_stretches(facts_.program, facts_.flow, calls_.disabling);
+  void find_disabled() {
+    disabled_ = longest_of(disabled_stretches(facts_.program, facts_.flow, calls_.disabling));
+    before_enabling_ = longest_of(stretches_before_enabling(facts_.program, facts_.flow));
+    bounds_.enabled_late = !before_enabling_;
+  }
+
+  /// The longest time from a DISI, or the first ATCH, to its ENI. Nothing: interrupts may stay disabled for longer than is
+  /// known.
+  std::optional<Time> longest_of(const std::optional<std::vector<DisabledStretch>>& stretches) const {
     if (!stretches) return {};
     Time longest = 0;
     for (const DisabledStretch& stretch : *stretches) {
@@ -264,40 +273,61 @@ class BoundsBuilder {
     return longest;
   }
 
-  /// The longest time between two places where an interrupt may come.
-  std::optional<Time> longest_wait() const {
-    return disabled_ ? std::optional(std::max(longest_instruction_, *disabled_)) : std::nullopt;
+  static Queue queue_of(const Bounds::OfEvent& event) { return find_event(event.event)->queue; }
+  static bool has_period(const Bounds::OfEvent& event) { return event.period && *event.period != 0; }
+
+  /// The events with a known period in a queue and those served before.
+  std::vector<InterruptSource> sources_until(Queue queue) const {
+    std::vector<InterruptSource> sources;
+    for (const Bounds::OfEvent& event : bounds_.events)
+      if (queue_of(event) <= queue && has_period(event))
+        sources.push_back({queue_of(event), *event.period, event.longest_routine});
+    return sources;
   }
 
-  /// The longest other routine may just have begun; events that are served before come as often as they can meanwhile, and
-  /// so may the event itself.
-  void find_latency(Bounds::OfEvent& event) {
-    const auto wait = longest_wait();
-    event.may_stay_disabled = !wait;
-    if (!wait) return;
-    std::vector<const Bounds::OfEvent*> before;
+  /// The longest routine of an event that is served after this one may just have begun. What comes before the first ENI
+  /// waits for that alone.
+  Time kept_away(const Bounds::OfEvent& event) const {
     Time begun = 0;
-    bool earlier = true;
+    bool come_early = false;
     for (const Bounds::OfEvent& other : bounds_.events) {
-      earlier &= &other != &event;
-      const bool same_queue = find_event(other.event)->queue == find_event(event.event)->queue;
-      if (earlier || same_queue)
-        before.push_back(&other);
-      else
-        begun = std::max(begun, other.longest_routine);
+      if (queue_of(other) > queue_of(event)) begun = std::max(begun, other.longest_routine);
+      if (queue_of(other) <= queue_of(event))
+        come_early |= !event::is_timed(other.event) || other.period <= *before_enabling_;
     }
-    for (const Bounds::OfEvent* other : before)
-      if (!other->period || *other->period == 0) event.before.push_back(other->event);
-    const Time alone = *wait + begun + timed_.interrupt_entry;
-    event.latency = settled(
-        alone, [&](const Bounds::OfEvent& other, Time time) { return time / *other.period + (&other == &event ? 0 : 1); },
-        [&](const Bounds::OfEvent& other) { return std::ranges::find(before, &other) != before.end(); });
+    const Time usual = std::max(longest_instruction_, *disabled_) + begun;
+    return come_early ? std::max(usual, *before_enabling_) : usual;
   }
 
-  /// Where interrupts do not stay disabled, none waits when a scan begins.
+  /// Events that are served before come as often as they can meanwhile, and so may the event itself.
+  void find_latency(Bounds::OfEvent& event) {
+    event.may_stay_disabled = !disabled_ || !before_enabling_;
+    if (event.may_stay_disabled) return;
+    for (const Bounds::OfEvent& other : bounds_.events)
+      if (queue_of(other) <= queue_of(event) && !has_period(other)) event.before.push_back(other.event);
+    if (!event.before.empty()) return;
+    const std::vector<InterruptSource> sources = sources_until(queue_of(event));
+    event.load = load_of(sources);
+    const auto wait = interrupt_wait(sources, queue_of(event), event.longest_routine, kept_away(event));
+    if (!wait) return;
+    event.latency = wait->longest + timed_.interrupt_entry;
+    event.may_be_lost = wait->waiting_in_queue > timed_.model->queue_depth[static_cast<std::size_t>(queue_of(event))];
+  }
+
+  /// Where interrupts do not stay disabled, none waits when a scan begins. Where the first ENI may come long after ATCH,
+  /// the queues may be full then.
   std::optional<Time> with_interrupts() const {
     if (!disabled_) return {};
-    return settled(bounds_.scan, [](const Bounds::OfEvent& event, Time time) { return time / *event.period + 1; });
+    const Time waiting = before_enabling_ ? 0 : full_queues();
+    return settled(bounds_.scan + waiting, [](const Bounds::OfEvent& event, Time time) { return time / *event.period + 1; });
+  }
+  Time full_queues() const {
+    std::array<Time, kQueues> longest{};
+    for (const Bounds::OfEvent& event : bounds_.events) {
+      Time& of_queue = longest[static_cast<std::size_t>(queue_of(event))];
+      of_queue = std::max(of_queue, event.longest_routine);
+    }
+    return std::inner_product(longest.begin(), longest.end(), timed_.model->queue_depth.begin(), Time{0});
   }
 
   /// The time that includes the routines of as many events as come in it; nothing if there is none or a period is not known.
@@ -311,7 +341,7 @@ class BoundsBuilder {
       Time next = alone;
       for (const Bounds::OfEvent& event : bounds_.events) {
         if (!comes(event)) continue;
-        if (!event.period || *event.period == 0) return {};
+        if (!has_period(event)) return {};
         next += count(event, time) * event.longest_routine;
       }
       if (next == time) return time;
@@ -432,20 +462,41 @@ class BoundsBuilder {
     if (!answers) return {};
     answer.loops = {loops.begin(), loops.end()};
     const auto silence = longest_silence(port, waits);
+    answer.silence_is_known = silence.has_value();
+    const std::set<std::uint8_t> own = of_answer(port, waits, with_called(by_characters));
+    const auto is_other = [&](const Bounds::OfEvent& event) { return !own.contains(event.event); };
+    for (const Bounds::OfEvent& event : bounds_.events)
+      if (is_other(event) && !has_period(event)) answer.of_others.push_back(event.event);
+    if (!silence || !disabled_ || !before_enabling_) return answer;
     const auto is_received = [&](std::uint8_t event) { return is_of_port(event, port) && event != kPorts[port].sent; };
-    const Time others =
-        longest_routine([&](std::uint8_t event) { return !is_of_port(event, port) && !(waits && event::is_timed(event)); });
-    if (!silence || !disabled_) return answer;
-    const Time begins = std::max(idle.instruction, *disabled_) + others;
+    const Time begins =
+        std::max(idle.instruction, *disabled_) + longest_routine([&](std::uint8_t event) { return !own.contains(event); });
     Time time = *answers + *silence;
     if (!by_characters.empty()) time += begins + longest_routine(is_received);
     if (waits) time += begins + longest_routine(event::is_timed);
     answer.time = settled(  // with those that wait when the last character comes
-        time, [begins](const Bounds::OfEvent& event, Time until) { return (until + begins) / *event.period + 1; },
-        [&](const Bounds::OfEvent& event) {
-          return !is_of_port(event.event, port) && !(waits && event::is_timed(event.event));
-        });
+        time,
+        [begins](const Bounds::OfEvent& event, Time until) {
+          const Time waiting = std::max(begins, event.latency.value_or(0) + event.longest_routine);
+          return (until + waiting) / *event.period + 1;
+        },
+        is_other);
     return answer;
+  }
+
+  /// The events that do not disturb an answer: those of its port, and if the program waits for silence, the timed interrupts
+  /// that measure it. These are the ones that the receiving routines attach; all, if they attach none.
+  std::set<std::uint8_t> of_answer(std::size_t port, bool waits, const std::set<std::uint32_t>& by_characters) const {
+    std::set<std::uint8_t> own, timed, restarted;
+    for (const EventUse& use : calls_.events) {
+      if (is_of_port(use.number, port)) own.insert(use.number);
+      if (!waits || !event::is_timed(use.number)) continue;
+      timed.insert(use.number);
+      for (const Attachment& attachment : use.attached)
+        if (by_characters.contains(facts_.flow.nodes[attachment.op].routine)) restarted.insert(use.number);
+    }
+    own.merge(restarted.empty() ? timed : restarted);
+    return own;
   }
   bool transmits(const std::set<std::uint32_t>& routines, std::size_t port) const {
     return std::ranges::any_of(routines, [&](std::uint32_t routine) {
@@ -463,8 +514,9 @@ class BoundsBuilder {
   const Waiter& waiter_;
   LongestWays ways_;
   LongestWays::Assumed usual_{};
-  Time longest_instruction_ = 0;      // of the main program, with what it calls
-  std::optional<Time> disabled_ = 0;  // longest_disabled(), of a program with interrupts
+  Time longest_instruction_ = 0;             // of the main program, with what it calls
+  std::optional<Time> disabled_ = 0;         // for how long at most a DISI of a program with interrupts does
+  std::optional<Time> before_enabling_ = 0;  // from the first ATCH to the first ENI
   Bounds bounds_{};
 };
 

@@ -43,8 +43,10 @@ struct Bounds {
     std::optional<Time> period{};        ///< the shortest time from one such event to the next; nothing: it is not known
     Time longest_routine = 0;            ///< of the routines attached to it, with the entry
     std::optional<Time> latency{};       ///< until its routine begins; nothing: there is no bound
-    bool may_stay_disabled = false;      ///< because of that: a DISI that no ENI surely follows in a known time
+    bool may_stay_disabled = false;      ///< because of that: a DISI or ATCH that no ENI surely follows in a known time
     std::vector<std::uint8_t> before{};  ///< or because of these, which may be served before it and come any number of times
+    double load = 0;                     ///< the share of time that routines served up to then need; at 1 there is no bound
+    bool may_be_lost = false;            ///< more may wait than its queue holds; `latency` is that of those that do
     std::vector<std::uint32_t> loops{};  ///< without a bound, on which these depend
   };
 
@@ -53,8 +55,10 @@ struct Bounds {
   /// main program looks at are off before.
   struct OfAnswer {
     std::uint8_t port = 0;
-    std::optional<Time> time;          ///< nothing: there is no bound
-    std::vector<std::uint32_t> loops;  ///< without a bound, on which it depends
+    std::optional<Time> time;               ///< nothing: there is no bound
+    std::vector<std::uint32_t> loops;       ///< without a bound, on which it depends
+    bool silence_is_known = true;           ///< how long the program waits after the last character
+    std::vector<std::uint8_t> of_others{};  ///< events that are not of this answer and of which the period is not known
   };
 
   std::vector<OfRoutine> routines;  ///< in ControlFlow::routines
@@ -65,7 +69,9 @@ struct Bounds {
   /// With as many interrupts as can come in it. As with OfEvent::latency, there is no bound if interrupts leave no time for
   /// it, if the period of an attached event is not known, or if they may stay disabled for good.
   std::optional<Time> scan_with_interrupts;
-  bool is_complete = true;  ///< false: whoever waited asked to end, and only the loops are known
+  double load = 0;            ///< the share of time that all routines of events with a known period need
+  bool enabled_late = false;  ///< ATCH may come before the first ENI, and nothing says how long before
+  bool is_complete = true;    ///< false: whoever waited asked to end, and only the loops are known
 };
 
 /// `timed`: the program of `facts`, with the times to count with. `stated` counts before all that the program says.

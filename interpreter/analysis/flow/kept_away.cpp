@@ -28,8 +28,8 @@ bool runs_a_pass(const Program& program, const Op& loop) {
   return is_constant(loop[1]) && is_constant(loop[2]) && value(loop[1]) <= value(loop[2]);
 }
 
-/// From a DISI to the last op that may follow it while interrupts are not surely enabled again; of loops all. `seen` gets the
-/// ops of it.
+/// From a DISI to the last op that may follow it while interrupts are not surely enabled again; of loops all. `seen` gets
+/// the ops of it.
 DisabledStretch until_enabled(const Program& program, const ControlFlow& flow, KeptAway& enabled, const Execution& execution,
                               std::uint32_t disi, std::set<std::uint32_t>& seen) {
   const Routine& routine = flow.routines[execution.routine];
@@ -48,6 +48,103 @@ DisabledStretch until_enabled(const Program& program, const ControlFlow& flow, K
   }
   return stretch;
 }
+
+bool is_first_scan(const Op& op) {
+  return op.is_contact && !op[0].unread() && !op[0].pointer && op[0].at == sm::kScanStatus &&
+         1u << op[0].bit == sm::kFirstScan;
+}
+
+/// The program in its first scan: SM0.1 is always on, as SM0.0 is.
+Program in_first_scan(Program program) {
+  for (Op& op : program.ops)
+    if (is_first_scan(op)) op.operand[0].bit = 0;
+  return program;
+}
+
+/// What LDN SM0.1 alone keeps from jumping and ending.
+ControlFlow flow_of_first_scan(const Program& program, const Program& first) {
+  ControlFlow flow = control_flow(first);
+  for (std::uint32_t op = 1; op < program.ops.size(); ++op) {
+    const Op& now = program.ops[op];
+    const bool jumps = now.instruction->structure == Structure::Jump || now.instruction->effect == Effect::ConditionalEnd;
+    if (!jumps || !is_first_scan(program.ops[op - 1]) || program.ops[op - 1].instruction->mnemonic != "LDN") continue;
+    flow.nodes[op].next = {op + 1};
+    flow.nodes[op].ends = false;
+  }
+  return flow;
+}
+
+/// All executions that `first` leads to, itself too.
+std::set<Execution> executions_from(const Program& program, const ControlFlow& flow, KeptAway& gate,
+                                    const Execution& first) {
+  std::set<Execution> all{first};
+  for (std::vector<Execution> waiting{first}; !waiting.empty();) {
+    const Execution now = waiting.back();
+    waiting.pop_back();
+    for (const CallSite& call : flow.calls) {
+      if (flow.nodes[call.op].routine != now.routine || now.depth >= program.model->call_depth) continue;
+      const Execution called = gate.called(now, call.op);
+      if (gate.reaches(now, call.op) && all.insert(called).second) waiting.push_back(called);
+    }
+  }
+  return all;
+}
+
+/// From what may happen before an ENI to that, in a scan that begins with interrupts disabled.
+class BeforeEnabling {
+ public:
+  BeforeEnabling(const Program& program, const ControlFlow& flow)
+      : program_(program),
+        flow_(flow),
+        nothing_(program.ops.size()),
+        early_(program.ops.size()),
+        enabled_(program, flow, nothing_, {gate_.closes, gate_.opens}),
+        open_(program, flow, nothing_, {[this](const Op& op) { return gate_.closes(op) || is_early(op); }, gate_.opens}) {
+    for (const Execution& execution : executions_from(program, flow, enabled_, kMain)) {
+      const Routine& routine = flow.routines[execution.routine];
+      for (std::uint32_t op = routine.first; op < routine.end; ++op)
+        if (program.ops[op].instruction->structure == Structure::Attach && enabled_.reaches(execution, op) &&
+            !enabled_.in_front(execution, op))
+          early_[op] = true;
+    }
+  }
+
+  bool surely_ends() { return enabled_.behind(kMain); }
+
+  std::optional<std::vector<DisabledStretch>> stretches() {
+    Execution main = kMain;
+    main.kept_away = true;
+    if (!open_.behind(main)) return {};
+    std::vector<DisabledStretch> all;
+    for (Execution execution : executions_from(program_, flow_, open_, main)) {
+      execution.kept_away = true;
+      const Routine& routine = flow_.routines[execution.routine];
+      std::set<std::uint32_t> seen;
+      for (std::uint32_t op = routine.first; op < routine.end; ++op)
+        if (open_.reaches(execution, op) && begins_at(execution, op) && !seen.contains(op))
+          all.push_back(until_enabled(program_, flow_, open_, execution, op, seen));
+    }
+    return all;
+  }
+
+ private:
+  static constexpr Execution kMain{};
+
+  bool is_early(const Op& op) const { return early_[static_cast<std::size_t>(&op - program_.ops.data())]; }
+  bool begins_at(const Execution& execution, std::uint32_t op) {
+    if (early_[op]) return true;
+    const bool calls =
+        program_.ops[op].instruction->structure == Structure::Call && execution.depth < program_.model->call_depth;
+    return calls && !open_.behind(open_.called(execution, op));
+  }
+
+  const Program& program_;
+  const ControlFlow& flow_;
+  const std::vector<bool> nothing_;
+  std::vector<bool> early_;  // an ATCH in front of which interrupts may not be enabled
+  const InterruptGate gate_ = gate_of_all_interrupts();
+  KeptAway enabled_, open_;  // whether they surely are; whether they are or no such ATCH has come
+};
 
 }  // namespace
 
@@ -174,6 +271,14 @@ std::optional<std::vector<DisabledStretch>> disabled_stretches(const Program& pr
     within.merge(seen);
   }
   return all;
+}
+
+std::optional<std::vector<DisabledStretch>> stretches_before_enabling(const Program& program, const ControlFlow& flow) {
+  const Program first = in_first_scan(program);
+  const ControlFlow of_first = flow_of_first_scan(program, first);
+  BeforeEnabling in_first(first, of_first);
+  if (in_first.surely_ends()) return in_first.stretches();
+  return BeforeEnabling(program, flow).stretches();
 }
 
 }  // namespace s7200

@@ -35,6 +35,10 @@ struct DisabledStretch {
 std::optional<std::vector<DisabledStretch>> disabled_stretches(const Program& program, const ControlFlow& flow,
                                                                const std::vector<std::uint32_t>& disabling);
 
+/// Where events of an ATCH may come before interrupts are enabled for the first time: from the first such ATCH to the ENI.
+/// Nothing if that ENI may not be executed in the same scan.
+std::optional<std::vector<DisabledStretch>> stretches_before_enabling(const Program& program, const ControlFlow& flow);
+
 /// An execution of a routine: below how many calls, and whether interrupts are kept away when it begins.
 struct Execution {
   std::uint32_t routine = 0, depth = 0;  ///< in ControlFlow::routines
@@ -54,6 +58,8 @@ class KeptAway {
   bool in_front(const Execution& execution, std::uint32_t op);
   /// Whether none comes in front of it, with power flow and without.
   bool whatever_flows(const Execution& execution, std::uint32_t op);
+  /// Whether the execution may come to an op.
+  bool reaches(const Execution& execution, std::uint32_t op) { return place(execution, way(execution), op).reached; }
   /// Whether none comes when the routine returns.
   bool behind(const Execution& execution) { return way(execution).behind; }
   /// The execution that a CALL begins.

@@ -131,7 +131,8 @@ TEST(Bounds, InterruptsComeAsOftenAsTheirPeriodsAllow) {
 TEST(Bounds, LatencyIsTheLongestInstructionAndTheRoutinesThatAreServedBefore) {
   const Bounds both = bounds(kTwoInterrupts);
   EXPECT_EQ(both.events[0].latency, 10 * us + 80 * us + 40 * us) << "the other one may just have begun";
-  EXPECT_EQ(both.events[1].latency, 10 * us + 70 * us + 40 * us) << "a character is served before";
+  EXPECT_EQ(both.events[1].latency, 30 * us + 70 * us + 40 * us)
+      << "a character that came between ATCH and ENI is before it";
 }
 
 TEST(Bounds, AnEventWaitsWithoutBoundOnlyForEventsBeforeItOfWhichThePeriodIsNotKnown) {
@@ -150,6 +151,56 @@ TEST(Bounds, AnEventWaitsWithoutBoundOnlyForEventsBeforeItOfWhichThePeriodIsNotK
 TEST(Bounds, HaveNoLatencyWhereInterruptsStayDisabledOrAnEventHasNoPeriod) {
   EXPECT_FALSE(bounds("LD SM0.1\nATCH 0, 10\nENI\nLD I0.0\nDISI\nMEND\nINT 0\nRETI\n").events[0].latency);
   EXPECT_FALSE(bounds("LD SM0.1\nATCH 0, 0\nENI\nMEND\nINT 0\nLD SM0.0\nRETI\n").scan_with_interrupts);
+}
+
+/// Two timed interrupts, each every 5 ms, with so many passes of 20 us.
+std::string two_timed(int passes) {
+  const std::string loop = fmt::format("LD SM0.0\nFOR VW0, 1, {}\nINCW VW2\nNEXT\nRETI\n", passes);
+  return "LD SM0.1\nMOVB 5, SMB34\nMOVB 5, SMB35\nATCH 0, 10\nATCH 1, 11\nENI\nMEND\nINT 0\n" + loop + "INT 1\n" + loop;
+}
+
+TEST(Bounds, TimedInterruptsThatNeedMoreTimeThanThereIsHaveNoLatency) {
+  const Bounds enough = bounds(two_timed(120)), too_much = bounds(two_timed(125));
+  EXPECT_EQ(enough.events.at(0).latency, 10 * us + enough.events.at(0).longest_routine + 40 * us);
+  EXPECT_FALSE(enough.events.at(0).may_be_lost);
+  EXPECT_FALSE(too_much.events.at(0).latency) << "5.16 ms of 5 ms: more and more of them wait, until the queue is full";
+  EXPECT_GT(too_much.events.at(0).load, 1.0);
+  EXPECT_FALSE(too_much.scan_with_interrupts);
+}
+
+TEST(Bounds, SayWhereAQueueMayOverflow) {
+  const std::string slow =
+      "LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nLD SM0.0\nDISI\nFOR VW4, 1, {}\nINCW VW6\nNEXT\nENI\nMEND\nINT 0\nRETI\n";
+  EXPECT_FALSE(bounds(fmt::format(fmt::runtime(slow), 1700)).events.at(0).may_be_lost) << "34 ms: 7 of them";
+  EXPECT_TRUE(bounds(fmt::format(fmt::runtime(slow), 2300)).events.at(0).may_be_lost) << "46 ms: 10 for a queue of 8";
+}
+
+TEST(Bounds, EventsBeforeTheFirstEniWaitForIt) {
+  const auto latency = [](std::string_view first_scan) {
+    return bounds(fmt::format("{}MEND\nSBR 1\nATCH 0, 10\nRET\nINT 0\nLD SM0.0\nRETI\n", first_scan)).events.at(0).latency;
+  };
+  constexpr std::string_view kLoop = "FOR VW0, 1, 500\nINCW VW2\nNEXT\n";  // 10 ms
+  const Time late = (10 + 10 + 500 * 20 + 20 + 40) * us;
+  EXPECT_EQ(latency(fmt::format("LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\n{}LD SM0.1\nENI\n", kLoop)), late);
+  EXPECT_EQ(latency(fmt::format("LD SM0.1\nMOVB 5, SMB34\nENI\nATCH 0, 10\n{}", kLoop)), 50 * us) << "ENI is first";
+  EXPECT_EQ(latency(fmt::format("LDN SM0.1\nJMP 1\nLD SM0.0\nMOVB 5, SMB34\nATCH 0, 10\n{}LD SM0.0\nENI\nLBL 1\n", kLoop)),
+            late);
+  EXPECT_EQ(latency(fmt::format("LD SM0.1\nMOVB 5, SMB34\nCALL 1\n{}LD SM0.1\nENI\n", kLoop)), late + 20 * us)
+      << "ATCH is in a subroutine";
+  EXPECT_EQ(latency("LD SM0.1\nMOVB 50, SMB34\nATCH 0, 10\nINCW VW2\nINCW VW2\nENI\n"), 50 * us) << "none comes so soon";
+}
+
+TEST(Bounds, WhatIsQueuedBeforeALateEniComesAtOnce) {
+  for (const std::string_view main :
+       {"LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nLD I0.0\nENI\n", "LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\n",
+        "LD I0.0\nMOVB 5, SMB34\nATCH 0, 10\nLD SM0.1\nENI\nLD I0.1\nDISI\n"}) {
+    const Bounds late = bounds(fmt::format("{}MEND\nINT 0\nLD SM0.0\nRETI\n", main));
+    EXPECT_TRUE(late.events.at(0).may_stay_disabled) << main;
+    EXPECT_FALSE(late.events.at(0).latency) << main;
+    EXPECT_TRUE(late.enabled_late) << main;
+  }
+  const Bounds late = bounds("LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nLD I0.0\nENI\nMEND\nINT 0\nLD SM0.0\nRETI\n");
+  EXPECT_EQ(late.scan_with_interrupts, late.scan + (8 + 1) * 60 * us) << "a full queue and one more";
 }
 
 /// With the timed interrupt 0 attached and enabled in the first scan.
