@@ -60,12 +60,28 @@ std::string events_in_words(const std::vector<std::uint8_t>& events) {
 
 std::string slowest_text(const std::optional<Time>& time) { return time ? ms(*time) : "no bound with the slowest times"; }
 
-std::string why_no_bound_with_interrupts(const Bounds& bounds) {
-  if (bounds.events.front().may_stay_disabled) return "they may stay disabled for any time";
+std::string percent(double load) { return fmt::format("{:.0f} %", std::max(100.0, 100 * load)); }
+
+std::string not_known_how_often(const std::vector<std::uint8_t>& events) {
+  return fmt::format("how often {} is not known", events_in_words(events));
+}
+
+/// Why interrupts may have to wait for any time; nothing if they need not.
+std::optional<std::string> why_disabled(const Bounds& bounds, std::string_view they) {
+  if (bounds.events.empty() || !bounds.events.front().may_stay_disabled) return {};
+  if (bounds.enabled_late)
+    return fmt::format("{} may come before the program executes ENI, and nothing says how long before", they);
+  return fmt::format("{} may stay disabled for any time", they);
+}
+
+/// Nothing if there is a bound, here and below.
+std::optional<std::string> why_no_scan_with_interrupts(const Bounds& bounds) {
+  if (bounds.scan_with_interrupts) return {};
+  if (const auto disabled = why_disabled(bounds, "they")) return disabled;
   std::vector<std::uint8_t> unknown;
   for (const Bounds::OfEvent& event : bounds.events)
     if (!event.period) unknown.push_back(event.event);
-  return unknown.empty() ? "they leave no time for it" : fmt::format("how often {} is not known", events_in_words(unknown));
+  return unknown.empty() ? fmt::format("they need {} of the time", percent(bounds.load)) : not_known_how_often(unknown);
 }
 
 std::string scan_text(const Inspection& inspection, const Both& both, const std::optional<SeenTimes>& seen) {
@@ -74,7 +90,7 @@ std::string scan_text(const Inspection& inspection, const Both& both, const std:
   if (!both.usual.events.empty())
     text += both.usual.scan_with_interrupts
                 ? fmt::format(", with the interrupts that can come in it {}", ms(*both.usual.scan_with_interrupts))
-                : ", with interrupts it has no bound: " + why_no_bound_with_interrupts(both.usual);
+                : ", with interrupts it has no bound: " + *why_no_scan_with_interrupts(both.usual);
   if (seen) text += fmt::format("; seen in a run of {} s: {}", seen->run / kSecond, ms(seen->scan));
   text += fmt::format("; the watchdog stops the CPU after {}", ms(inspection.program->model->watchdog));
   return wrapped_at(text, 2) + "\n";
@@ -93,26 +109,36 @@ std::string routines_text(const Inspection& inspection, const Both& both) {
   return text;
 }
 
-std::string why_no_latency(const Bounds::OfEvent& event) {
-  if (event.may_stay_disabled) return "begins when the program has enabled interrupts again, and nothing says when";
-  if (event.before.empty()) return "when it begins has no bound: the interrupts that are served first leave no time for it";
-  if (event.before == std::vector{event.event})
-    return "when it begins has no bound: as many as come before it are served first";
-  return fmt::format("when it begins has no bound: how often {} is not known, which is served first",
-                     events_in_words(event.before));
+std::optional<std::string> why_no_latency(const Bounds& bounds, const Bounds::OfEvent& event) {
+  if (event.latency) return {};
+  if (const auto disabled = why_disabled(bounds, "interrupts")) return disabled;
+  if (event.before == std::vector{event.event}) return "as many as come before it are served first";
+  if (!event.before.empty()) return not_known_how_often(event.before) + ", which is served first";
+  return fmt::format(
+      "the interrupts that are served up to then need {} of the time, and those that find its queue full are lost",
+      percent(event.load));
 }
 
-std::string event_text(const Inspection& inspection, const Bounds::OfEvent& event, const Bounds::OfEvent& slow,
+std::string latency_text(const Inspection& inspection, const Both& both, std::size_t number) {
+  const Bounds::OfEvent &event = both.usual.events[number], &slow = both.slow.events[number];
+  if (!event.latency) return ", and when it begins has no bound: " + *why_no_latency(both.usual, event);
+  std::string text = fmt::format(", and begins at most {} ({}) after it", ms(*event.latency), slowest_text(slow.latency));
+  if (event.may_be_lost)
+    text += fmt::format(", unless its queue, for {}, is full and it is lost",
+                        inspection.program->model->queue_depth[static_cast<std::size_t>(find_event(event.event)->queue)]);
+  return text;
+}
+
+std::string event_text(const Inspection& inspection, const Both& both, std::size_t number,
                        const std::optional<SeenTimes>& seen) {
+  const Bounds::OfEvent &event = both.usual.events[number], &slow = both.slow.events[number];
   const InterruptEvent* about = find_event(event.event);
   std::string text = fmt::format("event {}: {}", event.event, about ? about->cause : "");
   text += event.period ? fmt::format("; comes again after {} at the earliest", ms(*event.period))
                        : "; how often it comes is not known";
   text += fmt::format("; its routine takes {} {} ({})", at_most(inspection, event.loops), ms(event.longest_routine),
                       ms(slow.longest_routine));
-  text += event.latency
-              ? fmt::format(", and begins at most {} ({}) after it", ms(*event.latency), slowest_text(slow.latency))
-              : ", and " + why_no_latency(event);
+  text += latency_text(inspection, both, number);
   if (event.period && event.longest_routine > *event.period)
     text += "; the routine is longer than the time between two of them";
   const auto found = seen ? seen->events.find(event.event) : std::map<std::uint8_t, SeenTimes::OfEvent>::const_iterator{};
@@ -122,6 +148,14 @@ std::string event_text(const Inspection& inspection, const Bounds::OfEvent& even
   return "  " + wrapped_at(text, 4, 2) + "\n";
 }
 
+std::optional<std::string> why_no_answer_time(const Bounds& bounds, const Bounds::OfAnswer& answer) {
+  if (answer.time) return {};
+  if (!answer.silence_is_known) return "how long the program waits for silence is not known";
+  if (const auto disabled = why_disabled(bounds, "interrupts")) return disabled;
+  if (!answer.of_others.empty()) return not_known_how_often(answer.of_others);
+  return fmt::format("interrupts need {} of the time", percent(bounds.load));
+}
+
 std::string answers_text(const Inspection& inspection, const Both& both) {
   std::string text;
   for (std::size_t i = 0; i < both.usual.answers.size(); ++i) {
@@ -129,8 +163,7 @@ std::string answers_text(const Inspection& inspection, const Both& both) {
     std::string line = fmt::format("port {}: from the last character of a request to the first of its answer ", answer.port);
     line += answer.time
                 ? fmt::format("{} {} ({})", at_most(inspection, answer.loops), ms(*answer.time), slowest_text(slow.time))
-                : "no bound: how long the program waits for silence, how often interrupts come, or for how long it disables "
-                  "them, is not known";
+                : "has no bound: " + *why_no_answer_time(both.usual, answer);
     text += "  " + wrapped_at(line, 4, 2) + "\n";
   }
   return text.empty() ? text : "\nAnswers, while no other character comes\n" + text;
@@ -151,6 +184,7 @@ ordered_json places(const Inspection& inspection, const std::vector<std::uint32_
 }
 
 ordered_json time_json(const std::optional<Time>& time) { return time ? ordered_json(*time) : ordered_json(); }
+ordered_json reason_json(const std::optional<std::string>& why) { return why ? ordered_json(*why) : ordered_json(); }
 
 ordered_json events_json(const Inspection& inspection, const Both& both, const std::optional<SeenTimes>& seen) {
   ordered_json all = ordered_json::array();
@@ -162,6 +196,9 @@ ordered_json events_json(const Inspection& inspection, const Both& both, const s
     json["routine_slowest_ns"] = slow.longest_routine;
     json["latency_ns"] = time_json(event.latency);
     json["latency_slowest_ns"] = time_json(slow.latency);
+    json["latency_reason"] = reason_json(why_no_latency(both.usual, event));
+    json["latency_slowest_reason"] = reason_json(why_no_latency(both.slow, slow));
+    json["may_be_lost"] = event.may_be_lost;
     json["loops_without_bound"] = places(inspection, event.loops);
     const bool was_seen = seen && seen->events.contains(event.event);
     json["seen_routine_ns"] = was_seen ? ordered_json(seen->events.at(event.event).longest_routine) : ordered_json();
@@ -178,6 +215,8 @@ ordered_json answers_json(const Inspection& inspection, const Both& both) {
     all.push_back({{"port", answer.port},
                    {"time_ns", time_json(answer.time)},
                    {"slowest_ns", time_json(slow.time)},
+                   {"reason", reason_json(why_no_answer_time(both.usual, answer))},
+                   {"slowest_reason", reason_json(why_no_answer_time(both.slow, slow))},
                    {"loops_without_bound", places(inspection, answer.loops)}});
   }
   return all;
@@ -200,20 +239,20 @@ std::string bounds_text(const Inspection& inspection) {
   const auto seen = seen_in(inspection);
   std::string text = scan_text(inspection, both, seen) + "\n" + routines_text(inspection, both);
   if (!both.usual.events.empty()) text += "\nInterrupts\n";
-  for (std::size_t i = 0; i < both.usual.events.size(); ++i)
-    text += event_text(inspection, both.usual.events[i], both.slow.events[i], seen);
+  for (std::size_t i = 0; i < both.usual.events.size(); ++i) text += event_text(inspection, both, i, seen);
   text += answers_text(inspection, both);
   const std::string loops = all_loops_text(inspection, both);
   return text + (loops.empty() ? "" : "\n" + loops);
 }
 
 ordered_json bounds_json(const Inspection& inspection) {
-  if (has_no_times(inspection)) return nullptr;
+  if (has_no_times(inspection)) return {{"reason", kErrors}};
   const Both both = bounds_of(inspection);
-  if (!both.are_complete()) return nullptr;
+  if (!both.are_complete()) return {{"reason", kInterrupted}};
   const auto seen = seen_in(inspection);
-  ordered_json json{{"scan_ns", both.usual.scan}, {"scan_slowest_ns", both.slow.scan}};
+  ordered_json json{{"reason", nullptr}, {"scan_ns", both.usual.scan}, {"scan_slowest_ns", both.slow.scan}};
   json["scan_with_interrupts_ns"] = time_json(both.usual.scan_with_interrupts);
+  json["scan_with_interrupts_reason"] = reason_json(why_no_scan_with_interrupts(both.usual));
   json["seen_scan_ns"] = seen ? ordered_json(seen->scan) : ordered_json();
   json["watchdog_ns"] = inspection.program->model->watchdog;
   json["routines"] = ordered_json::array();
