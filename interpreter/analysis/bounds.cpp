@@ -80,7 +80,7 @@ class BoundsBuilder {
  private:
   void find_loops() {
     for (std::uint32_t op = 0; op < timed_.ops.size(); ++op)
-      if (is_loop(timed_, op)) bounds_.loops.push_back({op, times_of(op)});
+      if (is_loop(timed_, op)) bounds_.loops.push_back({.op = op, .times = times_of(op)});
   }
 
   void measure_all() {
@@ -96,6 +96,7 @@ class BoundsBuilder {
     bounds_.scan_with_interrupts = with_interrupts();
     for (std::size_t port = 0; port < timed_.model->ports; ++port)
       if (const auto found = answer(port)) bounds_.answers.push_back(*found);
+    for (Bounds::Loop& loop : bounds_.loops) loop.times ? void() : explain(loop);
   }
 
   // --- loops ---
@@ -108,6 +109,53 @@ class BoundsBuilder {
     const auto first = least_and_most(timed_.ops[op][1]), last = least_and_most(timed_.ops[op][2]);
     if (!first || !last) return facts_.pointers.passes(op);
     return std::max<std::int64_t>(0, last->second - first->first + 1);
+  }
+
+  /// What is executed begins in the main program or an interrupt routine: all ways from there may have a limit.
+  void explain(Bounds::Loop& loop) const {
+    if (!open_.contains(loop.op)) {
+      if (const auto most = passes_.find(loop.op); most != passes_.end()) loop.times = most->second;
+      return;
+    }
+    if (kind_of(timed_.ops[loop.op]) != Structure::For) {
+      loop.open = Bounds::Loop::Open::Jumps;
+    } else if (!counts_its_passes(facts_.flow, facts_.program, facts_.effects, loop.op)) {
+      loop.open = Bounds::Loop::Open::WritesItsIndex;
+    } else {
+      loop.open = Bounds::Loop::Open::NoLimit;
+      find_origin(loop);
+    }
+  }
+
+  /// The moves in front of a FOR, or of the calls of its routine, that put its final value, and what counts their sources.
+  void find_origin(Bounds::Loop& loop) const {
+    const Operand& last = timed_.ops[loop.op][2];
+    if (last.pointer || last.at >= image::kConstants) return;
+    const std::uint32_t routine = facts_.flow.nodes[loop.op].routine;
+    if (const auto mover = last_writer(loop.op, last.at)) {
+      add_origin(loop, *mover);
+    } else {
+      for (const CallSite& call : facts_.flow.calls)
+        if (const auto put = call.routine == routine ? last_writer(call.op, last.at) : std::nullopt) add_origin(loop, *put);
+    }
+  }
+  void add_origin(Bounds::Loop& loop, std::uint32_t mover) const {
+    const Op& now = timed_.ops[mover];
+    if (now.instruction->mnemonic != "MOVW" || now[0].pointer || now[0].at >= image::kConstants) return;
+    loop.copied.push_back(mover);
+    for (std::uint32_t op = 0; op < timed_.ops.size(); ++op) {
+      const Op& counts = timed_.ops[op];
+      const bool counts_up = counts.instruction->mnemonic == "INCW" && !counts[0].pointer && counts[0].at == now[0].at;
+      if (counts_up && std::ranges::find(loop.counted, op) == loop.counted.end()) loop.counted.push_back(op);
+    }
+  }
+  /// The nearest op in front of `before`, in its routine, that writes a word by its name.
+  std::optional<std::uint32_t> last_writer(std::uint32_t before, std::uint32_t at) const {
+    const Bits word{at * 8u, 16};
+    for (std::uint32_t op = before; op-- > facts_.flow.routine_of(before).first;)
+      for (const MemoryAccess& access : facts_.effects[op])
+        if (access.writes() && !access.by_pointer && access.bits.overlaps(word)) return op;
+    return {};
   }
 
   std::optional<std::int64_t> known_times(std::uint32_t op) const {
@@ -150,7 +198,12 @@ class BoundsBuilder {
     std::vector<std::uint32_t> all(facts_.flow.routines.size());
     std::iota(all.begin(), all.end(), 0U);
     for (const LongestWay& way : ways_.of_routines(all, usual_)) {
+      const Calls::Node& node = calls_.nodes[bounds_.routines.size()];
       if (bounds_.routines.empty()) longest_instruction_ = way.instruction;
+      if (bounds_.routines.empty() || !node.events.empty()) {
+        open_.insert(way.loops.begin(), way.loops.end());
+        for (const auto& [loop, most] : way.passes) passes_[loop] = std::max(passes_[loop], most);
+      }
       bounds_.routines.push_back({way.time, {way.loops.begin(), way.loops.end()}});
     }
   }
@@ -514,9 +567,11 @@ class BoundsBuilder {
   const Waiter& waiter_;
   LongestWays ways_;
   LongestWays::Assumed usual_{};
-  Time longest_instruction_ = 0;             // of the main program, with what it calls
-  std::optional<Time> disabled_ = 0;         // for how long at most a DISI of a program with interrupts does
-  std::optional<Time> before_enabling_ = 0;  // from the first ATCH to the first ENI
+  std::set<std::uint32_t> open_{};                  // loops without a bound that are executed
+  std::map<std::uint32_t, std::int64_t> passes_{};  // the most of others, on ways from where the CPU begins
+  Time longest_instruction_ = 0;                    // of the main program, with what it calls
+  std::optional<Time> disabled_ = 0;                // for how long at most a DISI of a program with interrupts does
+  std::optional<Time> before_enabling_ = 0;         // from the first ATCH to the first ENI
   Bounds bounds_{};
 };
 

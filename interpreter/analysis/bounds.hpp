@@ -30,8 +30,13 @@ bool is_loop(const Program& program, std::uint32_t op);
 struct Bounds {
   /// A loop, and how often it runs at most; nothing if that is not known.
   struct Loop {
+    enum class Open : std::uint8_t { WritesItsIndex, NoLimit, Jumps };  ///< why it is not
+
     std::uint32_t op = 0;  ///< its FOR, or the JMP back
-    std::optional<std::int64_t> times;
+    std::optional<std::int64_t> times{};
+    std::optional<Open> open{};            ///< nothing: it is known, or the loop is never executed
+    std::vector<std::uint32_t> copied{};   ///< if a FOR has no limit: the moves that its final value comes from
+    std::vector<std::uint32_t> counted{};  ///< what counts the sources of these up
   };
   struct OfRoutine {
     Time time = 0;  ///< in ns, with the subroutines that it calls

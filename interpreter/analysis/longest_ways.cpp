@@ -18,10 +18,11 @@ namespace {
 
 constexpr std::int64_t kMostUnits = 255;  ///< units of an instruction that memory counts: bytes, characters, entries
 constexpr std::int64_t kMostShifted = 32;
-constexpr std::size_t kMostWays = 1000, kFewWays = 40;  ///< in front of an op
-constexpr std::uint64_t kManySteps = 100'000;           ///< after which few ways must do
-constexpr std::uint64_t kMuchKept = 2'000'000;          ///< values of cells that are kept, about 200 MB: the same
-constexpr int kLevels = 9;                              ///< of the logic stack
+constexpr std::size_t kMostWays = 1000, kFewWays = 40;      ///< in front of an op
+constexpr std::uint64_t kManySteps = 100'000;               ///< after which few ways must do
+constexpr std::uint64_t kMuchKept = 2'000'000;              ///< values of cells that are kept, about 200 MB: the same
+constexpr Bits kSumOverflow{(image::kSM + 1) * 8u + 1, 1};  ///< SM1.1
+constexpr int kLevels = 9;                                  ///< of the logic stack
 
 Structure flow_role(const Op& op) { return op.instruction->structure; }
 
@@ -147,12 +148,18 @@ class LongestWays::Follower {
   struct Through {
     WayList exits{};  ///< where it returns
     std::optional<Time> ends{}, to_transmission{};
-    Time instruction = 0;             ///< the longest
-    std::set<std::uint32_t> loops{};  ///< without a bound
+    Time instruction = 0;                            ///< the longest
+    std::set<std::uint32_t> loops{};                 ///< without a bound
+    std::map<std::uint32_t, std::int64_t> passes{};  ///< of those with a bound
+    void count(std::uint32_t loop, std::int64_t most) {
+      auto& known = passes[loop];
+      known = std::max(known, most);
+    }
     void end_at(Time time) { ends = std::max(ends.value_or(0), time); }
     void include(const Through& part) {
       instruction = std::max(instruction, part.instruction);
       loops.insert(part.loops.begin(), part.loops.end());
+      for (const auto& [loop, most] : part.passes) count(loop, most);
     }
     void transmit_at(Time time) { to_transmission = std::max(to_transmission.value_or(0), time); }
   };
@@ -164,7 +171,7 @@ class LongestWays::Follower {
   using Arrivals = std::map<std::uint32_t, WayList>;  // by op outside of a stretch
 
   LongestWay finish(const Through& through) const {
-    LongestWay way{through.ends.value_or(0), through.to_transmission, through.instruction, through.loops};
+    LongestWay way{through.ends.value_or(0), through.to_transmission, through.instruction, through.loops, through.passes};
     for (const Way& exit : through.exits) way.time = std::max(way.time, exit.time);
     return way;
   }
@@ -345,7 +352,9 @@ class LongestWays::Follower {
       for (const auto& [assumed, value] : assumed_.bits)
         if (assumed == bit) return value == on;
       if (bit == Bits{image::kSM * 8u, 1}) return on;  // SM0.0
-      return cells_.keep(memory, cells_.at(bit), ValueSet(on, on));
+      if (bit == kSumOverflow && !on) cells_.note_no_overflow(memory);
+      return cells_.keep(memory, cells_.at(bit), ValueSet(on, on)) && cells_.keep_sign(memory, bit, on) &&
+             cells_.apply_sum(memory);
     }
     if (form.kind != Kind::Numbers || form.type == ContactForm::Type::Real) return true;
     const Width width = now.instruction->operand[0].width;
@@ -356,7 +365,7 @@ class LongestWays::Follower {
     const ValueSet of_first = first.that_are(relation, second), of_second = second.that_are(mirrored(relation), first);
     if (of_first.empty() || of_second.empty()) return false;
     return cells_.keep(memory, cells_.of(now[0], width), of_first) &&
-           cells_.keep(memory, cells_.of(now[1], width), of_second);
+           cells_.keep(memory, cells_.of(now[1], width), of_second) && cells_.apply_sum(memory);
   }
 
   // --- what is written ---
@@ -374,12 +383,22 @@ class LongestWays::Follower {
     std::optional<std::size_t> original;
     if (box && box->carries() && box->from)
       original = cells_.of(now[*box->from], now.instruction->operand[*box->from].width);
+    const auto sum = sum_of(now, box, way.memory);
+    if (way.memory.sum) way.memory.sum->shown_by_overflow = false;
     for (const MemoryAccess& access : facts_.effects[op]) {
       if (!access.writes() || is_anywhere(timed_, access)) continue;
       const bool by_name = is_of_operand(access) && !access.by_pointer && access.certainty == Certainty::Must;
       cells_.write(way.memory, access.bits, by_name ? result : std::nullopt, of_bits);
       if (by_name && original) cells_.make_copy(way.memory, *original, access.bits);
     }
+    if (sum) way.memory.sum = sum;
+  }
+
+  /// What `+I VW2, AC0` after `MOVW VW0, AC0` makes.
+  std::optional<WayMemory::Sum> sum_of(const Op& now, const std::optional<ValueBox>& box, const WayMemory& memory) const {
+    if (!box || !box->from || now.instruction->mnemonic != "+I") return {};
+    const auto total = cells_.of(now[box->to], Width::Word), added = cells_.of(now[*box->from], Width::Word);
+    return total && added ? cells_.sum_of(memory, *total, *added) : std::nullopt;
   }
 
   ValueSet computed(std::uint32_t op, const ValueBox& box, const WayMemory& memory) const {
@@ -451,6 +470,7 @@ class LongestWays::Follower {
     auto known = times_(op);
     if (!known || (on_this_way && *on_this_way < *known)) known = on_this_way;
     if (!known) through.loops.insert(op);
+    if (known) through.count(op, *known);
     return known.value_or(1);
   }
 
@@ -490,12 +510,8 @@ class LongestWays::Follower {
       through.loops.insert(op);
       return arrive(op + 1, std::move(way), arrivals);
     }
-    const auto counter = counter_of(op);
-    std::optional<std::int64_t> counted;
-    if (counter) {
-      const ValueSet left = way.memory.value[*counter];
-      if (!left.empty() && left.least() >= 0) counted = left.most() + 1;
-    }
+    std::optional<std::int64_t> counted = passes_to_zero(op, way.memory);
+    if (!counted) counted = passes_to_limit(op, way.memory);
     forget_writes(now.target, op, way.memory);
     const Pass pass = pass_of(now.target, op, way);
     const std::int64_t more = std::max<std::int64_t>(0, passes(op, counted, through) - 1);
@@ -505,9 +521,9 @@ class LongestWays::Follower {
     arrive(op + 1, std::move(way), arrivals);
   }
 
-  /// The cell that a loop counts down to 0: DEC of it stands in front of LDN SM1.0 and the JMP back, and nothing else in
-  /// the loop writes it.
-  std::optional<std::size_t> counter_of(std::uint32_t jump) const {
+  /// The passes of a loop that counts a cell down to 0: DEC of it stands in front of LDN SM1.0 and the JMP back, and nothing
+  /// else in the loop writes it.
+  std::optional<std::int64_t> passes_to_zero(std::uint32_t jump, const WayMemory& memory) const {
     const std::uint32_t target = timed_.ops[jump].target;
     if (jump < target + 2) return {};
     const Op &zero = timed_.ops[jump - 1], &counts = timed_.ops[jump - 2];
@@ -516,13 +532,86 @@ class LongestWays::Follower {
                             !zero[0].pointer && zero[0].at == image::kSM + 1 && zero[0].bit == 0;
     if (!until_zero || step_of(timed_, counts) != -1 || !counts.instruction->mnemonic.starts_with("DEC")) return {};
     const auto cell = cells_.of(counts[0], counts.instruction->operand[0].width);
-    if (!cell || !facts_.flow.nodes[jump - 2].powered) return {};
-    for (std::uint32_t op = target; op < jump - 2; ++op)
-      if (cells_.is_written(op, *cell)) return {};
-    return cell;
+    if (!cell || !facts_.flow.nodes[jump - 2].powered || writes_within(target, jump - 2, *cell)) return {};
+    const ValueSet& left = memory.value[*cell];
+    if (left.empty() || left.least() < 0) return {};
+    return left.most() + 1;
+  }
+
+  bool writes_within(std::uint32_t from, std::uint32_t to, std::size_t cell) const {
+    for (std::uint32_t op = from; op < to; ++op)
+      if (cells_.is_written(op, cell)) return true;
+    return false;
+  }
+
+  /// The passes of a loop with a comparison in front of its JMP back, such as LDW>= VW0, 1: each adds the same constant to
+  /// the number, and nothing leads around that.
+  std::optional<std::int64_t> passes_to_limit(std::uint32_t jump, const WayMemory& memory) const {
+    const std::uint32_t target = timed_.ops[jump].target;
+    if (jump < target + 2) return {};
+    const Op& compares = timed_.ops[jump - 1];
+    const ContactForm form = contact_form(*compares.instruction);
+    if (form.kind != ContactForm::Kind::Numbers || form.type == ContactForm::Type::Real || form.join != Join::Load)
+      return {};
+    const Width width = compares.instruction->operand[0].width;
+    for (const std::size_t i : {0U, 1U}) {
+      const auto cell = cells_.of(compares[i], width), other = cells_.of(compares[1 - i], width);
+      const auto step = cell ? step_of_pass(target, jump - 1, *cell) : std::nullopt;
+      if (!step || (other && writes_within(target, jump, *other))) continue;
+      if (!other && !constant_value(timed_, compares[1 - i], width)) continue;
+      return passes_until(i == 0 ? form.relation : mirrored(form.relation), *step, memory.value[*cell],
+                          cells_.value_of(timed_, compares[1 - i], width, memory), range_of(width));
+    }
+    return {};
+  }
+
+  /// What each pass surely adds to a cell.
+  std::optional<std::int64_t> step_of_pass(std::uint32_t from, std::uint32_t to, std::size_t cell) const {
+    std::optional<std::int64_t> step;
+    for (std::uint32_t op = from; op < to; ++op) {
+      const Op& now = timed_.ops[op];
+      const Structure role = flow_role(now);
+      const bool straight =
+          role == Structure::None || role == Structure::Compare || (role == Structure::Label && op == from);
+      if (!straight || now.instruction->effect == Effect::ConditionalEnd) return {};
+      if (!cells_.is_written(op, cell)) continue;
+      const auto box = value_box_of(*now.instruction);
+      if (step || !box || !facts_.flow.nodes[op].powered) return {};
+      if (cells_.of(now[box->to], now.instruction->operand[box->to].width) != cell) return {};
+      step = step_of(timed_, now);
+      if (!step) return {};
+    }
+    return step;
+  }
+
+  /// The passes, the first too, of a loop that jumps back while a number has the relation with a limit. The number is what
+  /// it is at the first jump, and does not overflow.
+  static std::optional<std::int64_t> passes_until(Relation relation, std::int64_t step, const ValueSet& number,
+                                                  const ValueSet& limit, const ValueRange& range) {
+    if (number.empty() || limit.empty() || step == 0) return {};
+    const bool up = step > 0;
+    std::int64_t last = up ? limit.most() : limit.least();  // with which it still jumps
+    switch (relation) {
+      case Relation::Equal:
+        return {};
+      case Relation::NotEqual:
+        if (std::abs(step) != 1 || (up ? number.most() >= limit.least() : number.least() <= limit.most())) return {};
+        last -= step;
+        break;
+      case Relation::Less:
+      case Relation::Greater:
+        last -= up ? 1 : -1;
+        [[fallthrough]];
+      default:
+        if (up != (relation == Relation::Less || relation == Relation::LessEqual)) return {};
+    }
+    if (last + step < range.least || last + step > range.most) return {};
+    const std::int64_t left = up ? last - number.least() : number.most() - last;
+    return left < 0 ? 1 : left / std::abs(step) + 2;
   }
 
   void forget_writes(std::uint32_t from, std::uint32_t to, WayMemory& memory) const {
+    if (memory.sum) memory.sum->shown_by_overflow = false;
     for (std::uint32_t op = from; op < to; ++op) {
       for (const MemoryAccess& access : facts_.effects[op])
         if (access.writes() && !is_anywhere(timed_, access)) cells_.write(memory, access.bits, {}, false);

@@ -3,17 +3,21 @@
 //
 // A routine is followed op by op with the logic stack and with the numbers and bits that its contacts look at, a way for
 // each that differ; subroutines are followed with what their callers know. Of numbers it is known what reaching_values.hpp
-// computes, and that a copy stays like its original. Of too many ways in front of an op the shortest are taken for one that
-// may be any of them. In the passes of a loop, and after it, nothing is known of what they write. Nothing is known either of
-// what interrupt routines write, of local memory, of timers and counters, and of what the system changes.
+// computes, that a copy stays like its original, that a word to which only constants are moved holds one of them, and that
+// `MOVW VW0, AC0` and `+I VW2, AC0` make a sum: without overflow none of two numbers that are not negative is above it. Of
+// too many ways in front of an op the shortest are taken for one that may be any of them. In the passes of a loop, and after
+// it, nothing is known of what they write. Nothing is known either of what interrupt routines write, of local memory, of
+// timers and counters, and of what the system changes.
 //
-// A loop counts as often as FOR counts on the way, as DEC counts down to 0 in front of `LDN SM1.0` and its JMP back, or as
-// it is known at any time, whichever is less. A pointer that may lead anywhere in an area is taken not to lead to what is
+// A loop counts as often as FOR counts on the way, as DEC counts down to 0 in front of `LDN SM1.0` and its JMP back, as a
+// number to which each pass adds a constant goes to the limit of a comparison in front of the JMP, or as it is known at any
+// time, whichever is less. A pointer that may lead anywhere in an area is taken not to lead to what is
 // followed, as in reaching_values.hpp.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -28,6 +32,7 @@ struct LongestWay {
   std::optional<Time> to_transmission;  ///< to the end of the last XMT on the way; nothing: no way leads to one
   Time instruction = 0;                 ///< the longest one on any way
   std::set<std::uint32_t> loops{};      ///< FOR and JMP back without a bound, CALLs of recursion: each counts once
+  std::map<std::uint32_t, std::int64_t> passes{};  ///< of loops with a bound, the most on any way
 };
 
 class LongestWays {

@@ -1,6 +1,7 @@
 #include "interpreter/analysis/way_cells.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "interpreter/analysis/cross_reference.hpp"
 #include "interpreter/analysis/effects/followed_cells.hpp"
@@ -36,12 +37,14 @@ void WayMemory::join(const WayMemory& other) {
   }
   for (std::size_t i = 0; i < like.size(); ++i)
     if (like[like[i]] != like[i]) like[i] = i;
+  if (sum != other.sum) sum.reset();
 }
 
 WayCells::WayCells(const Facts& facts, const std::vector<bool>& disturbing) : facts_(facts) {
   find();
   want_sources();
   find_disturbed(disturbing);
+  find_constants();
   find_uses();
   find_live();
 }
@@ -49,7 +52,7 @@ WayCells::WayCells(const Facts& facts, const std::vector<bool>& disturbing) : fa
 WayMemory WayCells::nothing_known() const {
   WayMemory memory;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    memory.value.push_back(ValueSet::all_of(cells_[i].width));
+    memory.value.push_back(cells_[i].ever);
     memory.like.push_back(i);
   }
   return memory;
@@ -164,6 +167,28 @@ void WayCells::find_disturbed(const std::vector<bool>& disturbing) {
   }
 }
 
+/// Words of V memory that instructions only set to constants, and that are 0 before. What no instruction sets, somebody else
+/// does.
+void WayCells::find_constants() {
+  const Program& program = facts_.program;
+  for (Cell& cell : cells_) {
+    cell.ever = ValueSet::all_of(cell.width);
+    if (cell.width != Width::Word || area_of(cell.bits) != Area::V || is_set_by_data_block(program, cell.bits)) continue;
+    ValueSet constants;
+    bool only = true;
+    for (std::uint32_t op = 0; op < program.ops.size() && only; ++op) {
+      if (!writes(op, cell.bits)) continue;
+      const Op& writer = program.ops[op];
+      const auto value = constant_value(program, writer[0], Width::Word);
+      only = writer.instruction->mnemonic == "MOVW" && !writer[1].pointer && writer[1].at == cell.at && value;
+      if (only) constants.add({*value, *value});
+    }
+    if (!only || constants.empty()) continue;
+    constants.add({0, 0});
+    cell.ever = constants;
+  }
+}
+
 void WayCells::find_uses() {
   writes_.resize(facts_.flow.routines.size());
   reads_.resize(facts_.flow.routines.size());
@@ -201,7 +226,10 @@ std::set<std::size_t> WayCells::read_by(std::uint32_t op) const {
   for (std::size_t i = 0; i < now.instruction->rules().size(); ++i) {
     const OperandRule& rule = now.instruction->operand[i];
     if (rule.kind != OperandKind::Memory || rule.role == Role::Out || now[i].pointer) continue;
-    const auto cell = rule.width == Width::Bit ? at({now[i].at * std::uint64_t{8} + now[i].bit, 1}) : of(now[i], rule.width);
+    const Bits bit{now[i].at * std::uint64_t{8} + now[i].bit, 1};
+    const auto cell = rule.width == Width::Bit ? at(bit) : of(now[i], rule.width);
+    for (std::size_t number = 0; number < cells_.size() && rule.width == Width::Bit; ++number)
+      if (is_sign(number, bit)) all.insert(number);
     if (cell) all.insert(*cell);
     if (const auto count = rule.count ? of(now[i], Width::Byte) : std::nullopt) all.insert(*count);
   }
@@ -249,9 +277,9 @@ std::vector<bool> WayCells::live_in_front_of(std::uint32_t op) const {
 
 void WayCells::forget_all_but(WayMemory& memory, const std::vector<bool>& live) const {
   for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
-    if (live[cell]) continue;
+    if (live[cell] || (memory.sum && live[memory.sum->total] && memory.sum->is_of(cell))) continue;
     detach(memory, cell);
-    memory.value[cell] = ValueSet::all_of(cells_[cell].width);
+    memory.value[cell] = cells_[cell].ever;
   }
 }
 
@@ -294,7 +322,46 @@ bool WayCells::keep(WayMemory& memory, std::optional<std::size_t> cell, const Va
   return true;
 }
 
+bool WayCells::is_sign(std::size_t number, const Bits& bit) const {
+  const Cell& cell = cells_[number];
+  const bool is_signed = cell.width == Width::Word || cell.width == Width::Double;
+  return is_signed && !cell.disturbed && bit.first == cell.bits.first + 7;
+}
+
+bool WayCells::keep_sign(WayMemory& memory, const Bits& bit, bool on) const {
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (!is_sign(i, bit)) continue;
+    const ValueRange all = range_of(cells_[i].width);
+    if (!keep(memory, i, on ? ValueSet(all.least, -1) : ValueSet(0, all.most))) return false;
+  }
+  return true;
+}
+
+void WayCells::note_no_overflow(WayMemory& memory) const {
+  if (memory.sum && memory.sum->shown_by_overflow) memory.sum->fits = true;
+}
+
+bool WayCells::apply_sum(WayMemory& memory) const {
+  if (!memory.sum || !memory.sum->fits) return true;
+  const auto [total, first, second, fits, shown] = *memory.sum;
+  const ValueSet &one = memory.value[first], &other = memory.value[second];
+  if (one.empty() || other.empty() || one.least() < 0 || other.least() < 0) return true;
+  const std::int64_t most = memory.value[total].most(), least = one.least() + other.least();
+  if (most < least) return false;
+  const ValueSet of_first(0, most - other.least()), of_second(0, most - one.least());
+  return keep(memory, total, {least, most}) && keep(memory, first, of_first) && keep(memory, second, of_second);
+}
+
+std::optional<WayMemory::Sum> WayCells::sum_of(const WayMemory& memory, std::size_t total, std::size_t added) const {
+  if (cells_[total].width != Width::Word || cells_[added].width != Width::Word || total == added) return {};
+  for (std::size_t i = 0; i < memory.like.size(); ++i)
+    if (i != total && i != added && memory.like[i] == memory.like[total] && cells_[i].width == Width::Word)
+      return WayMemory::Sum{.total = total, .first = i, .second = added};
+  return {};
+}
+
 void WayCells::detach(WayMemory& memory, std::size_t cell) const {
+  if (memory.sum && (memory.sum->total == cell || memory.sum->is_of(cell))) memory.sum.reset();
   std::optional<std::size_t> first;
   for (std::size_t i = 0; i < memory.like.size(); ++i) {
     if (i == cell || memory.like[i] != memory.like[cell]) continue;
@@ -309,7 +376,14 @@ void WayCells::write(WayMemory& memory, const Bits& bits, const std::optional<Va
     const Cell& cell = cells_[i];
     if (cell.disturbed || !bits.overlaps(cell.bits)) continue;
     detach(memory, i);
-    memory.value[i] = ValueSet::all_of(cell.width);
+    const ValueSet before = std::exchange(memory.value[i], cell.ever);
+    const bool within_cell =
+        !each_bit && cell.width != Width::Bit && cell.bits.contains(bits) && bits.end() == cell.bits.end();
+    if (within_cell && bits != cell.bits && bits.first % 8 == 0 && !before.empty()) {
+      const std::int64_t size = std::int64_t{1} << bits.count;
+      memory.value[i] = with_lower_part(before, size, result.value_or(ValueSet(0, size - 1)));
+      continue;
+    }
     if (!result || result->empty()) continue;
     const bool whole = each_bit ? cell.width == Width::Bit : bits == cell.bits;
     const ValueRange range = range_of(cell.width);
@@ -371,7 +445,7 @@ void WayCells::forget_writes_of(std::uint32_t routine, WayMemory& memory) const 
   for (const std::size_t cell : writes_[routine]) {
     if (cells_[cell].disturbed) continue;
     detach(memory, cell);
-    memory.value[cell] = ValueSet::all_of(cells_[cell].width);
+    memory.value[cell] = cells_[cell].ever;
   }
 }
 

@@ -17,8 +17,19 @@ namespace s7200 {
 
 /// What each cell may hold, and which cells hold the same.
 struct WayMemory {
+  /// A cell that is the sum of two others.
+  struct Sum {
+    std::size_t total = 0, first = 0, second = 0;
+    bool fits = false;              ///< without overflow
+    bool shown_by_overflow = true;  ///< SM1.1 still tells whether it does
+
+    bool is_of(std::size_t cell) const { return cell == first || cell == second; }
+    bool operator==(const Sum&) const = default;
+  };
+
   std::vector<ValueSet> value{};
   std::vector<std::size_t> like{};  ///< the first cell of those that hold the same as this one; itself if none does
+  std::optional<Sum> sum{};         ///< the last one
 
   bool operator==(const WayMemory&) const = default;
   void join(const WayMemory& other);  ///< either of the two
@@ -37,6 +48,16 @@ class WayCells {
 
   /// Keeps what is in `values` too, of a cell and of its copies; false if that is nothing.
   bool keep(WayMemory& memory, std::optional<std::size_t> cell, const ValueSet& values) const;
+
+  /// A bit is on or off: the highest bit of a number is its sign. False if that cannot be.
+  bool keep_sign(WayMemory& memory, const Bits& bit, bool on) const;
+  /// SM1.1 is off: the sum that was worked out last has not overflowed.
+  void note_no_overflow(WayMemory& memory) const;
+  /// Two numbers of a sum that are not negative are not above it. False if what is known cannot be.
+  bool apply_sum(WayMemory& memory) const;
+
+  /// `total` becomes the sum of itself and `added`. Asked in front of the write.
+  std::optional<WayMemory::Sum> sum_of(const WayMemory& memory, std::size_t total, std::size_t added) const;
 
   /// Bits are written, all of them with `result` if there is one: with a number, or with the same bit each.
   void write(WayMemory& memory, const Bits& bits, const std::optional<ValueSet>& result, bool each_bit) const;
@@ -66,6 +87,7 @@ class WayCells {
     bool disturbed = false;           ///< an interrupt routine or the system writes it
     bool compared = false;            ///< with anything
     std::set<std::int64_t> equals{};  ///< numbers with which it is compared for equality
+    ValueSet ever{};                  ///< what it may hold at any time
   };
 
   void find();
@@ -77,6 +99,7 @@ class WayCells {
   void find_disturbed(const std::vector<bool>& disturbing);
   bool writes(std::uint32_t op, const Bits& bits) const;
   std::optional<std::size_t> known_at(std::uint64_t first_bit, Width width) const;
+  void find_constants();
   void find_uses();
   void add_uses_of_callees(std::vector<std::set<std::size_t>>& uses) const;
   std::set<std::size_t> read_by(std::uint32_t op) const;
@@ -84,6 +107,7 @@ class WayCells {
   std::vector<bool> live_in_front_of(std::uint32_t op) const;
   std::vector<ValueSet> parts_of(const Cell& cell, const ValueSet& values) const;
   void forget_all_but(WayMemory& memory, const std::vector<bool>& live) const;
+  bool is_sign(std::size_t number, const Bits& bit) const;
   void detach(WayMemory& memory, std::size_t cell) const;
 
   const Facts& facts_;

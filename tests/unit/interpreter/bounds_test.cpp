@@ -94,6 +94,51 @@ TEST(Bounds, ALoopThatCountsDownToZeroIsKnown) {
   EXPECT_EQ(down.routines[0].time, 30 * us + 5 * 50 * us);
 }
 
+TEST(Bounds, ALoopThatCountsToAComparisonIsKnown) {
+  const auto loop = [](std::string_view first, std::string_view step, std::string_view compares) {
+    return bounds(fmt::format("LD SM0.0\n{}\nLBL 1\nLD SM0.0\nINCW VW2\n{}\n{}\nJMP 1\nMEND\n", first, step, compares));
+  };
+  const Bounds down = loop("MOVW 20, VW0", "-I 8, VW0", "LDW>= VW0, 1");
+  EXPECT_TRUE(down.routines[0].loops.empty());
+  EXPECT_EQ(down.routines[0].time, 30 * us + 3 * 50 * us) << "with 12, 4, -4 left";
+  EXPECT_EQ(down.loops.at(0).times, 3);
+  EXPECT_EQ(loop("MOVW 0, VW0", "+I 3, VW0", "LDW< VW0, 10").loops.at(0).times, 4) << "3, 6, 9, 12";
+  EXPECT_EQ(loop("MOVW 0, VW0", "INCW VW0", "LDW<> 7, VW0").loops.at(0).times, 7);
+  EXPECT_EQ(loop("MOVW 0, AC0\nMOVB VB9, AC0", "DECW AC0", "LDW> AC0, 0").loops.at(0).times, 255) << "a byte";
+  EXPECT_EQ(loop("MOVW VW8, AC0\nANDW 16#F, AC0", "DECW AC0", "LDW> AC0, 0").loops.at(0).times, 15);
+  EXPECT_FALSE(loop("MOVW VW8, VW0", "INCW VW0", "LDW<= VW0, 32767").loops.at(0).times) << "it overflows";
+  EXPECT_FALSE(loop("MOVW 0, VW0", "+I 3, VW0", "LDW<> VW0, 10").loops.at(0).times) << "it passes over 10";
+  EXPECT_FALSE(loop("MOVW 0, VW0", "INCW VW0\nMOVW VW8, VW0", "LDW< VW0, 10").loops.at(0).times) << "it is set anew";
+  EXPECT_FALSE(loop("MOVW 0, VW0", "LD I0.0\nINCW VW0", "LDW< VW0, 10").loops.at(0).times) << "not in each pass";
+}
+
+TEST(Bounds, TwoNumbersOfASumAreNotAboveIt) {
+  const auto times = [](std::string_view checks, std::string_view limit) {
+    return bounds(
+               fmt::format("LD SM0.1\nMOVW 17, VW20\nLD SM0.0\nCALL 1\nMEND\nSBR 1\nLD SM0.0\nMOVW VW0, AC0\n+I VW2, AC0\n{}"
+                           "OW>= AC0, {}\nCRET\nLD SM0.0\nMOVW VW2, AC1\n+I 7, AC1\nSRW AC1, 3\n"
+                           "FOR VW10, 1, AC1\nINCW VW12\nNEXT\nRET\n",
+                           checks, limit))
+        .loops.at(0)
+        .times;
+  };
+  EXPECT_EQ(times("LD SM1.1\nO V0.7\nO V2.7\n", "17"), 2) << "up to 16, eight for each pass";
+  EXPECT_EQ(times("LD SM1.1\nO V0.7\nO V2.7\n", "VW20"), 2) << "only 17 is moved there";
+  EXPECT_NE(times("LD SM1.1\nO V0.7\n", "17"), 2) << "VW2 may be negative";
+  EXPECT_NE(times("LD I0.0\nO V0.7\nO V2.7\n", "17"), 2) << "the sum may have overflowed";
+}
+
+TEST(Bounds, SayWhatALoopWithoutOneIsCountedWith) {
+  const Bounds open = bounds(
+      "LD SM0.1\nMOVB 9, SMB30\nATCH 0, 8\nENI\nLD SM0.0\nMOVW VW0, AC0\nCALL 1\nMEND\n"
+      "SBR 1\nLD SM0.0\nFOR VW2, 1, AC0\nNEXT\nRET\nINT 0\nLD SM0.0\nINCW VW0\nRETI\n");
+  EXPECT_EQ(open.loops.at(0).open, Bounds::Loop::Open::NoLimit);
+  EXPECT_EQ(open.loops.at(0).copied, std::vector<std::uint32_t>{5});
+  EXPECT_EQ(open.loops.at(0).counted, std::vector<std::uint32_t>{15});
+  EXPECT_EQ(bounds("LD SM0.0\nFOR VW0, 1, 5\nDECW VW0\nNEXT\nMEND\n").loops.at(0).open, Bounds::Loop::Open::WritesItsIndex);
+  EXPECT_EQ(bounds("LBL 1\nLD I0.0\nJMP 1\nMEND\n").loops.at(0).open, Bounds::Loop::Open::Jumps);
+}
+
 TEST(Bounds, ALoopCountsAsTheWayToItAllows) {
   const std::string program =
       "LDW<= VW10, 4\nAW>= VW10, 1\nCALL 1\nLDW> VW10, 90\nR M0.0, 1\nMEND\nSBR 1\nLD SM0.0\nFOR VW0, 1, VW10\nINCW "

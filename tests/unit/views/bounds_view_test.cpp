@@ -41,10 +41,19 @@ constexpr std::string_view kTooLong =
 TEST(BoundsView, SaysHowMuchTimeInterruptsNeedThatLeaveNone) {
   const nlohmann::ordered_json json = bounds_json(inspected(kTooLong));
   const std::string reason = json["events"][0]["latency_reason"];
-  EXPECT_TRUE(reason.starts_with("the interrupts that are served up to then need ")) << reason;
+  EXPECT_TRUE(reason.starts_with("the interrupts that are served up to then can need ")) << reason;
   EXPECT_TRUE(reason.ends_with("those that find its queue full are lost")) << reason;
   EXPECT_TRUE(bounds_text(inspected(kTooLong)).find("when it begins has no bound: the interrupts that are") !=
               std::string::npos);
+}
+
+TEST(BoundsView, SaysWhyALoopHasNoBoundAndWhatToDo) {
+  const Inspection open = inspected("LD SM0.0\nMOVW VW0, AC0\nFOR VW2, 1, AC0\nNEXT\nMEND\n");
+  EXPECT_TRUE(bounds_text(open).find("nothing in front of it limits AC0, a copy of VW0 (test.stl:2); if") !=
+              std::string::npos)
+      << bounds_text(open);
+  const std::string reason = bounds_json(open)["loops"][0]["reason"];
+  EXPECT_TRUE(reason.starts_with("nothing in front of it limits AC0")) << reason;
 }
 
 TEST(BoundsView, WhereTheJsonHasNoTimeItHasTheReason) {

@@ -10,6 +10,7 @@
 #include "interpreter/analysis/flow/calls.hpp"
 #include "interpreter/base/text/joined.hpp"
 #include "interpreter/program/loading/unread.hpp"
+#include "interpreter/stl/printer.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -81,7 +82,7 @@ std::optional<std::string> why_no_scan_with_interrupts(const Bounds& bounds) {
   std::vector<std::uint8_t> unknown;
   for (const Bounds::OfEvent& event : bounds.events)
     if (!event.period) unknown.push_back(event.event);
-  return unknown.empty() ? fmt::format("they need {} of the time", percent(bounds.load)) : not_known_how_often(unknown);
+  return unknown.empty() ? fmt::format("they can need {} of the time", percent(bounds.load)) : not_known_how_often(unknown);
 }
 
 std::string scan_text(const Inspection& inspection, const Both& both, const std::optional<SeenTimes>& seen) {
@@ -115,7 +116,7 @@ std::optional<std::string> why_no_latency(const Bounds& bounds, const Bounds::Of
   if (event.before == std::vector{event.event}) return "as many as come before it are served first";
   if (!event.before.empty()) return not_known_how_often(event.before) + ", which is served first";
   return fmt::format(
-      "the interrupts that are served up to then need {} of the time, and those that find its queue full are lost",
+      "the interrupts that are served up to then can need {} of the time, and those that find its queue full are lost",
       percent(event.load));
 }
 
@@ -153,7 +154,7 @@ std::optional<std::string> why_no_answer_time(const Bounds& bounds, const Bounds
   if (!answer.silence_is_known) return "how long the program waits for silence is not known";
   if (const auto disabled = why_disabled(bounds, "interrupts")) return disabled;
   if (!answer.of_others.empty()) return not_known_how_often(answer.of_others);
-  return fmt::format("interrupts need {} of the time", percent(bounds.load));
+  return fmt::format("interrupts can need {} of the time", percent(bounds.load));
 }
 
 std::string answers_text(const Inspection& inspection, const Both& both) {
@@ -169,10 +170,36 @@ std::string answers_text(const Inspection& inspection, const Both& both) {
   return text.empty() ? text : "\nAnswers, while no other character comes\n" + text;
 }
 
+std::string places_text(const Inspection& inspection, const std::vector<std::uint32_t>& ops) {
+  return stl::joined(ops, [&](std::uint32_t op) { return line_text(inspection, op); });
+}
+
+/// Why nothing is known of how often a loop runs, and what to do about it; nothing of one that is never executed.
+std::optional<std::string> why_open(const Inspection& inspection, const Bounds::Loop& loop) {
+  using Open = Bounds::Loop::Open;
+  if (loop.times || !loop.open) return {};
+  const Program& program = *inspection.program;
+  const auto operand = [&](std::uint32_t op, std::size_t number) {
+    return stl::to_text(program.statement(op).operands[number]);
+  };
+  std::string why = "nothing is known that it counts down to 0 or up to a limit";
+  if (*loop.open == Open::WritesItsIndex) why = "its passes write its index or its final value";
+  if (*loop.open == Open::NoLimit) {
+    const std::string last = operand(loop.op, 2);
+    why = fmt::format("nothing in front of it limits {}", last);
+    if (!loop.copied.empty())
+      why += fmt::format(", a copy of {} ({})", operand(loop.copied.front(), 0), places_text(inspection, loop.copied));
+    if (!loop.counted.empty()) why += fmt::format(", which is counted up in {}", places_text(inspection, loop.counted));
+  }
+  return fmt::format("{}; if it runs at most N times, --loop {}=N says so", why, program.statement(loop.op).position.line);
+}
+
 std::string all_loops_text(const Inspection& inspection, const Both& both) {
   std::string text;
-  for (const Bounds::Loop& loop : both.usual.loops)
+  for (const Bounds::Loop& loop : both.usual.loops) {
     text += row_text(inspection, "  " + column(loop.times ? fmt::format("{} times", *loop.times) : "no bound", 14), loop.op);
+    if (const auto why = why_open(inspection, loop)) text += "    " + wrapped_at(*why, 4, 4) + "\n";
+  }
   if (text.empty()) return text;
   return "Loops; a comment `at most 8 times` at the FOR or at the JMP back gives one a bound, or --loop LINE=8\n" + text;
 }
@@ -266,8 +293,9 @@ ordered_json bounds_json(const Inspection& inspection) {
   json["answers"] = answers_json(inspection, both);
   json["loops"] = ordered_json::array();
   for (const Bounds::Loop& loop : both.usual.loops)
-    json["loops"].push_back(
-        {{"times", loop.times ? ordered_json(*loop.times) : ordered_json()}, {"place", place_json(inspection, loop.op)}});
+    json["loops"].push_back({{"times", loop.times ? ordered_json(*loop.times) : ordered_json()},
+                             {"reason", reason_json(why_open(inspection, loop))},
+                             {"place", place_json(inspection, loop.op)}});
   return json;
 }
 
