@@ -2566,7 +2566,7 @@ class JsonPage(Case):
                     ["inspect", self.program("LD I0.0\nLD I0.1\nCTU C5, 12\nTON T37, 5\nMOVB 16#81, SMB31\nMEND\n", "eeprom.stl"), "map"],
                     ["inspect", *Inspect.PUMP, "map"], ["inspect", EXPORTS / "races.awl", "races"], ["inspect", self.program(self.CALLS_ITSELF, "calls_itself.stl"), "races"],
                     ["inspect", self.program(self.CALLS_NOTHING, "calls_nothing.stl"), "map"], ["inspect", EXPORTS / "races.awl", "shared"], ["inspect", SLAVE, "bounds"], ["inspect", *Inspect.PUMP, "document"],
-                    ["inspect", self.program("LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nMEND\nINT 0\nLD SM0.0\nFOR VW0, 1, AC0\nNEXT\nRETI\n", "loop.stl"), "bounds"], ["inspect", SOURCE / "tests/programs/libraries/slave.awl", "map"],
+                    ["inspect", self.program("LD SM0.1\nMOVB 9, SMB30\nMOVB 5, SMB34\nATCH 0, 10\nATCH 1, 8\nENI\nLD M0.0\nFOR VW2, 1, VW4\nNEXT\nLD M0.0\nXMT VB9, 0\nMEND\nINT 0\nLD SM0.0\nFOR VW0, 1, AC0\nNEXT\nRETI\nINT 1\nLD SM0.0\nS M0.0, 1\nRETI\n", "loop.stl"), "bounds"], ["inspect", SOURCE / "tests/programs/libraries/slave.awl", "map"],
                     ["inspect", self.program(self.WIDE, "wide.stl"), "ladder"],
                     ["import", "--compare", self.program(Files.DRAWING.replace("LD", "LDN"), "drawn.txt")], ["run", faulty, *plant],
                     ["check", EXPORTS / "broken.awl", EXPORTS / "pump_symbols.txt"], ["convert", SLAVE, "--to", "microdos"],
