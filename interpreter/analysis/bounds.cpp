@@ -94,6 +94,7 @@ class BoundsBuilder {
     for (Bounds::OfEvent& event : bounds_.events) find_latency(event);
     bounds_.load = load_of(sources_until(Queue::Timed));
     bounds_.scan_with_interrupts = with_interrupts();
+    bounds_.loops_of_interrupts = with_loops_of_events(bounds_.routines[0].loops);
     for (std::size_t port = 0; port < timed_.model->ports; ++port)
       if (const auto found = answer(port)) bounds_.answers.push_back(*found);
     for (Bounds::Loop& loop : bounds_.loops) loop.times ? void() : explain(loop);
@@ -352,6 +353,12 @@ class BoundsBuilder {
     return come_early ? std::max(usual, *before_enabling_) : usual;
   }
 
+  std::vector<std::uint32_t> with_loops_of_events(const std::vector<std::uint32_t>& loops) const {
+    std::set<std::uint32_t> all(loops.begin(), loops.end());
+    for (const Bounds::OfEvent& event : bounds_.events) all.insert(event.loops.begin(), event.loops.end());
+    return {all.begin(), all.end()};
+  }
+
   /// Events that are served before come as often as they can meanwhile, and so may the event itself.
   void find_latency(Bounds::OfEvent& event) {
     event.may_stay_disabled = !disabled_ || !before_enabling_;
@@ -361,6 +368,7 @@ class BoundsBuilder {
     if (!event.before.empty()) return;
     const std::vector<InterruptSource> sources = sources_until(queue_of(event));
     event.load = load_of(sources);
+    event.loops_before = with_loops_of_events({});  // that of any queue may just have begun
     const auto wait = interrupt_wait(sources, queue_of(event), event.longest_routine, kept_away(event));
     if (!wait) return;
     event.latency = wait->longest + timed_.interrupt_entry;
@@ -520,6 +528,7 @@ class BoundsBuilder {
     const auto is_other = [&](const Bounds::OfEvent& event) { return !own.contains(event.event); };
     for (const Bounds::OfEvent& event : bounds_.events)
       if (is_other(event) && !has_period(event)) answer.of_others.push_back(event.event);
+    answer.loops = with_loops_of_events(answer.loops);
     if (!silence || !disabled_ || !before_enabling_) return answer;
     const auto is_received = [&](std::uint8_t event) { return is_of_port(event, port) && event != kPorts[port].sent; };
     const Time begins =

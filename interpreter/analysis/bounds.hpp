@@ -52,7 +52,8 @@ struct Bounds {
     std::vector<std::uint8_t> before{};  ///< or because of these, which may be served before it and come any number of times
     double load = 0;                     ///< the share of time that routines served up to then need; at 1 there is no bound
     bool may_be_lost = false;            ///< more may wait than its queue holds; `latency` is that of those that do
-    std::vector<std::uint32_t> loops{};  ///< without a bound, on which these depend
+    std::vector<std::uint32_t> loops{};  ///< without a bound, in these routines
+    std::vector<std::uint32_t> loops_before{};  ///< in those too on which `latency` depends
   };
 
   /// From the last character of a request at a port to the first of its answer. The one who asks waits for answers, so that
@@ -74,6 +75,7 @@ struct Bounds {
   /// With as many interrupts as can come in it. As with OfEvent::latency, there is no bound if interrupts leave no time for
   /// it, if the period of an attached event is not known, or if they may stay disabled for good.
   std::optional<Time> scan_with_interrupts;
+  std::vector<std::uint32_t> loops_of_interrupts;  ///< without a bound, in their routines and in the scan
   double load = 0;            ///< the share of time that all routines of events with a known period need
   bool enabled_late = false;  ///< ATCH may come before the first ENI, and nothing says how long before
   bool is_complete = true;    ///< false: whoever waited asked to end, and only the loops are known

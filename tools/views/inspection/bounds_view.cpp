@@ -85,12 +85,19 @@ std::optional<std::string> why_no_scan_with_interrupts(const Bounds& bounds) {
   return unknown.empty() ? fmt::format("they can need {} of the time", percent(bounds.load)) : not_known_how_often(unknown);
 }
 
+/// `at most` where the scan alone has no loop without a bound, or the same loops and no others.
+std::string interrupted_at_most(const Inspection& inspection, const Bounds& bounds) {
+  const bool more = bounds.loops_of_interrupts != bounds.routines[0].loops;
+  return more ? at_most(inspection, bounds.loops_of_interrupts) : "";
+}
+
 std::string scan_text(const Inspection& inspection, const Both& both, const std::optional<SeenTimes>& seen) {
   std::string text = fmt::format("Scan: {} {} ({} with the slowest times)",
                                  at_most(inspection, both.usual.routines[0].loops), ms(both.usual.scan), ms(both.slow.scan));
   if (!both.usual.events.empty())
     text += both.usual.scan_with_interrupts
-                ? fmt::format(", with the interrupts that can come in it {}", ms(*both.usual.scan_with_interrupts))
+                ? fmt::format(", with the interrupts that can come in it {} {}", interrupted_at_most(inspection, both.usual),
+                              ms(*both.usual.scan_with_interrupts))
                 : ", with interrupts it has no bound: " + *why_no_scan_with_interrupts(both.usual);
   if (seen) text += fmt::format("; seen in a run of {} s: {}", seen->run / kSecond, ms(seen->scan));
   text += fmt::format("; the watchdog stops the CPU after {}", ms(inspection.program->model->watchdog));
@@ -123,7 +130,8 @@ std::optional<std::string> why_no_latency(const Bounds& bounds, const Bounds::Of
 std::string latency_text(const Inspection& inspection, const Both& both, std::size_t number) {
   const Bounds::OfEvent &event = both.usual.events[number], &slow = both.slow.events[number];
   if (!event.latency) return ", and when it begins has no bound: " + *why_no_latency(both.usual, event);
-  std::string text = fmt::format(", and begins at most {} ({}) after it", ms(*event.latency), slowest_text(slow.latency));
+  std::string text = fmt::format(", and begins {} {} ({}) after it", at_most(inspection, event.loops_before),
+                                 ms(*event.latency), slowest_text(slow.latency));
   if (event.may_be_lost)
     text += fmt::format(", unless its queue, for {}, is full and it is lost",
                         inspection.program->model->queue_depth[static_cast<std::size_t>(find_event(event.event)->queue)]);
@@ -227,6 +235,7 @@ ordered_json events_json(const Inspection& inspection, const Both& both, const s
     json["latency_slowest_reason"] = reason_json(why_no_latency(both.slow, slow));
     json["may_be_lost"] = event.may_be_lost;
     json["loops_without_bound"] = places(inspection, event.loops);
+    json["latency_loops_without_bound"] = places(inspection, event.loops_before);
     const bool was_seen = seen && seen->events.contains(event.event);
     json["seen_routine_ns"] = was_seen ? ordered_json(seen->events.at(event.event).longest_routine) : ordered_json();
     json["seen_latency_ns"] = was_seen ? ordered_json(seen->events.at(event.event).latency) : ordered_json();
@@ -279,6 +288,7 @@ ordered_json bounds_json(const Inspection& inspection) {
   const auto seen = seen_in(inspection);
   ordered_json json{{"reason", nullptr}, {"scan_ns", both.usual.scan}, {"scan_slowest_ns", both.slow.scan}};
   json["scan_with_interrupts_ns"] = time_json(both.usual.scan_with_interrupts);
+  json["scan_with_interrupts_loops_without_bound"] = places(inspection, both.usual.loops_of_interrupts);
   json["scan_with_interrupts_reason"] = reason_json(why_no_scan_with_interrupts(both.usual));
   json["seen_scan_ns"] = seen ? ordered_json(seen->scan) : ordered_json();
   json["watchdog_ns"] = inspection.program->model->watchdog;
