@@ -61,7 +61,7 @@ TEST(BoundsView, SaysWhichLoopsWithoutABoundAWaitDependsOn) {
       "LD SM0.1\nMOVB 9, SMB30\nMOVB 5, SMB34\nATCH 0, 10\nATCH 1, 8\nENI\nMEND\nINT 0\nLD SM0.0\nFOR VW0, 1, AC0\n"
       "NEXT\nRETI\nINT 1\nRETI\n"));
   EXPECT_TRUE(text.find("and begins no bound; with one pass of the loop") != std::string::npos) << text;
-  EXPECT_TRUE(text.find("come in it\n  no bound; with one pass of the loop in test.stl:10") != std::string::npos) << text;
+  EXPECT_TRUE(text.find("come in it no\n  bound; with one pass of the loop in test.stl:10") != std::string::npos) << text;
 }
 
 TEST(BoundsView, WhereTheJsonHasNoTimeItHasTheReason) {
