@@ -6,6 +6,7 @@ set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
 cmake_path(SET sysroot NORMALIZE ${CMAKE_CURRENT_LIST_DIR}/../../build/arm64/sysroot)
 set(libraries ${sysroot}/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE})
 set(CMAKE_EXE_LINKER_FLAGS_INIT "\"-Wl,-rpath-link,${libraries}\"")
+set(CMAKE_SKIP_RPATH ON)  # of the sysroot: what is installed has none, but would keep room as long as the name of this folder
 set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64 -L ${sysroot})
 set(CMAKE_FIND_ROOT_PATH ${sysroot})
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
