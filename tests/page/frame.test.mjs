@@ -1,5 +1,7 @@
 // The frame: toolbar, keys, help, lamps, and what is said when the connection is lost.
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { browser, end, kPhone, moment, open, picture, rendered, view } from './support.mjs';
 
@@ -238,6 +240,38 @@ test('the tracks of many PLCs are printed within the timeline', async () => {
     }).length;
   });
   assert.equal(below, 0);
+  await page.close();
+  await end(plant.server);
+});
+
+/** How many lines a program has. */
+const of_lines = (program) => readFileSync(path.join(process.env.SOURCE, 'stl_programs', program), 'utf8').trimEnd().split('\n').length;
+
+test('another PLC of a system is shown with its program, its ladder, its blocks and its points', async () => {
+  const plant = await view('stl_programs/systems/gateway.yaml');
+  const page = await open(chrome, plant.address);
+  const lines = (count) => page.waitForSelector(`.listing[aria-rowcount="${count}"] .row.here .operand`);
+  const blocks = () => page.locator('.navigator option').allTextContents();
+  await lines(of_lines('systems/line_gateway.stl'));
+  await page.waitForSelector('.program-name:has-text("CPU 226")');
+  await page.click('.row.here .margin');
+  await page.waitForSelector('.margin.stop');
+  const of_gateway = await blocks();
+  await page.selectOption('#station', 'pump');
+  await lines(of_lines('modbus_slave.stl'));
+  await page.waitForSelector('.program-name:has-text("CPU 214")');
+  await page.waitForFunction(() => document.querySelectorAll('.margin.stop').length === 0);
+  assert.notDeepEqual(await blocks(), of_gateway);
+  await page.click('.choice button:has-text("LAD")');
+  await page.waitForSelector('.ladder-network svg');
+  const of_pump = await page.locator('.ladder-network').allTextContents();
+  await page.selectOption('#station', 'gateway');
+  await page.waitForFunction((before) => document.querySelector('.ladder-network svg') && document.querySelector('.ladder-network').textContent !== before, of_pump[0]);
+  await page.click('.choice button:has-text("STL")');
+  await lines(of_lines('systems/line_gateway.stl'));
+  await page.waitForSelector('.margin.stop');
+  assert.deepEqual(await blocks(), of_gateway);
+  assert.deepEqual(page.troubles, []);
   await page.close();
   await end(plant.server);
 });

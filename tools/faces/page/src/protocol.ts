@@ -294,7 +294,7 @@ export interface Cause {
 
 /** Breakpoints and watches. */
 export interface Stops {
-  stops: { number: number; kind: 'break' | 'watch'; text: string; hits: number; line?: number; op?: number }[];
+  stops: { number: number; kind: 'break' | 'watch'; text: string; hits: number; line?: number; op?: number; station?: string }[];
 }
 
 /** Why a run came to its end. */

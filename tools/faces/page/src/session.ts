@@ -166,13 +166,14 @@ const stops = new Seen(async () => {
   const reply = await query<Stops>('break');
   if (!reply.json) return;
   state.breakpoints = new Map();
-  for (const stop of reply.json.stops) if (stop.line !== undefined) state.breakpoints.set(stop.line, stop.number);
+  for (const stop of reply.json.stops)
+    if (stop.line !== undefined && (stop.station ?? '') === (state.past?.station ?? '')) state.breakpoints.set(stop.line, stop.number);
 });
 
 /** Mode and errors, which commands change without going elsewhere. */
 const past = new Seen(async () => {
   const reply = await query<Past>('past');
-  if (reply.json) state.past = reply.json;
+  if (reply.json) stand_at(reply.json);
 });
 
 /** What else is asked for when the session has moved: panes add themselves. */
@@ -238,9 +239,7 @@ function forget_session(): void {
   state.window = null;
   state.cursors = { a_ns: null, b_ns: null };
   state.trail = [];
-  state.inputs = [];
-  state.outputs = [];
-  state.selected_line = null;
+  forget_points();
   show_picture();
 }
 
@@ -341,11 +340,29 @@ export function print(text: string): void {
   changed();
 }
 
-function came_to(now: Past): void {
-  const other_program = state.past?.station !== now.station;
+/** Where the session stands; who hears first that it looks at another PLC gets acquainted with that one's program. Returns whether it does. */
+function stand_at(now: Past): boolean {
+  const is_another = state.past !== null && state.past.station !== now.station;
   state.past = now;
-  if (other_program) void get_acquainted();
-  else refresh_all();
+  if (is_another) {
+    forget_points();
+    void get_acquainted();
+  }
+  return is_another;
+}
+
+/** Points, and what was seen of them, are those of a PLC. */
+function forget_points(): void {
+  state.inputs = [];
+  state.outputs = [];
+  state.samples.clear();
+  state.switched.clear();
+  state.selected_line = null;
+  forget_pulses();
+}
+
+function came_to(now: Past): void {
+  if (!stand_at(now)) refresh_all();
   changed();
 }
 
@@ -396,7 +413,7 @@ export function pause(): void {
 async function run_ended(): Promise<void> {
   pause();
   const reply = await query<Past>('past');
-  if (reply.json) state.past = reply.json;
+  if (reply.json) stand_at(reply.json);
 }
 
 /** Carries out something that moves the session, which ends a run; what it says is shown where it stops. */

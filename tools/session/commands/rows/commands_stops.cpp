@@ -110,7 +110,7 @@ std::string options_text(const StopPoint& stop) {
 }
 
 /// {"stops": [{"number": 1, "kind": "break", "text": "line 40 …", "hits": 0, "line": 40, "op": 12}]}: `line` and `op` of
-/// those at a place.
+/// those at a place, `station` in a system.
 Json list_stops(Session& session) {
   Json stops = Json::array();
   session.stepper.count_hits();
@@ -125,6 +125,7 @@ Json list_stops(Session& session) {
       session.said << fmt::format("{:<3} {}  {:>8}  {}{}\n", s.number, kind, counted(s.hits, "hit"), what, options_text(s));
       Json stop{{"number", s.number}, {"kind", kind}, {"text", what + options_text(s)}, {"hits", s.hits}};
       if (s.on == On::Place) stop.update({{"line", of.listing.line_of(s.op)}, {"op", s.op}});
+      if (session.is_system()) stop["station"] = session.name_of(s.station);
       stops.push_back(std::move(stop));
     }
   if (session.stepper.stops().empty()) session.said << "no breakpoints and no watches\n";

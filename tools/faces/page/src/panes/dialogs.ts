@@ -48,7 +48,7 @@ function about(): Part {
   const hello = state.hello;
   return dialog('About',
     h('p', {}, `s7200 ${hello?.version ?? ''}: runs SIMATIC S7-200 STL programs, instruction by instruction in simulated time.`),
-    hello ? h('p', {}, `Program ${hello.program} on a CPU ${hello.cpu}.`) : null,
+    hello ? h('p', {}, `Program ${hello.program} on a CPU ${state.outline?.cpu ?? hello.cpu}.`) : null,
     h('p', {}, 'Execution times are estimates until you measure a real CPU.'),
     licences(),
     h('p', {}, 'SIMATIC and S7-200 are names of Siemens products; this project has no connection with Siemens.'));

@@ -228,6 +228,11 @@ function on_key(event: KeyboardEvent): void {
   changed();
 }
 
+/** Networks of two programs may begin in the same lines. */
+function words_of(all: Place[]): string {
+  return all.map((one) => `${one.line} ${one.first} ${one.end} ${one.name}`).join('\n');
+}
+
 export function ladder_view(): Part {
   let top = 0;
   const networks = places(), chosen = networks[chosen_of(networks)]?.line;
@@ -238,8 +243,7 @@ export function ladder_view(): Part {
   });
   const from = scroller?.scrollTop ?? 0, to = from + (scroller?.clientHeight ?? 600);
   const shown = all.filter((one) => one.top + one.height > from - 100 && one.top < to + 100);
-  const lines = shown.map((one) => one.place.line).join(' ');
-  if (lines !== in_view.map((one) => one.line).join(' ')) {
+  if (words_of(shown.map((one) => one.place)) !== words_of(in_view)) {
     in_view = shown.map((one) => one.place);
     seen.refresh();
   }

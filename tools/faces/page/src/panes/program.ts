@@ -15,6 +15,7 @@ const kMore = 8;         // rows above and below those in view
 
 let scroller: HTMLElement | null = null;
 let followed: number | null = null;
+let followed_in: Outline | null = null;
 let found_at = 0;
 
 function line_at_top(): number {
@@ -30,8 +31,9 @@ function scroll_to(line: number): void {
 /** The line where the CPU stands comes into view when it has gone elsewhere. */
 function follow(): void {
   const line = state.past?.line ?? null;
-  if (!scroller || !state.follow || line === null || line === followed) return;
+  if (!scroller || !state.follow || line === null || (line === followed && followed_in === state.outline)) return;
   followed = line;
+  followed_in = state.outline;
   const top = (line - 1) * kRow;
   if (top < scroller.scrollTop || top > scroller.scrollTop + scroller.clientHeight - 2 * kRow) scroll_to(line);
 }

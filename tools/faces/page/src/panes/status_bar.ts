@@ -30,7 +30,7 @@ export function status_bar(): Part {
     h('span', { class: 'place' }, place()),
     h('div', { class: 'printed' }, h('span', {}, in_formats(with_times(state.printed[state.printed.length - 1] ?? ''))), notice_bar()),
     h('button', { class: 'plain program-name', title: state.hello?.program ?? 'About this page', onclick: toggle_dialog('about') },
-      state.hello ? `${state.hello.program.replace(/^.*[\\/]/, '')} · CPU ${state.hello.cpu}` : 's7200'));
+      state.hello ? `${state.hello.program.replace(/^.*[\\/]/, '')} · CPU ${state.outline?.cpu ?? state.hello.cpu}` : 's7200'));
 }
 
 /** What is wrong, or was done: over the status bar, where it moves no pane, until it is put away or something else is done. */
