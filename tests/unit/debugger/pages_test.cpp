@@ -436,6 +436,34 @@ TEST(Spans, KeepTwentyOfTheLongestAnswers) {
   EXPECT_EQ(longest.all()[1].end, 4900);
 }
 
+/// The hundredth scan counts to 200 in a loop.
+TEST(Spans, NameTheLongestScanToTheNanosecond) {
+  Asked session("LD SM0.0\nINCW VW0\nLDW= VW0, 100\nNOT\nJMP 1\nLD SM0.0\nFOR VW2, 1, 200\nNEXT\nLBL 1\nMEND\n");
+  session("continue 2s");
+  const auto longest = [&](const std::string& part) { return session.json("spans " + part + " 1")["longest_scans"]; };
+  const Json all = longest("start end");
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0]["text"], "scan 100");
+  EXPECT_FALSE(all[0].contains("station"));
+  const Json scans = track(session.json("spans start end 20000"), "scans", "scans");
+  for (const Json& scan : scans["spans"])
+    if (scan["text"] == "scan 100") {
+      EXPECT_EQ(scan["at_ns"], all[0]["at_ns"]);
+      EXPECT_EQ(scan["end_ns"], all[0]["end_ns"]);
+    }
+  session("continue 10s");
+  EXPECT_EQ(longest("start end"), all) << "scans that are passed over are as long as the one before them";
+}
+
+TEST(Spans, OfTheWholePastHaveTheErrorThatHasEndedIt) {
+  Asked session("LD SM0.0\nINCW VW10\nLBL 1\nLDW>= VW10, 50\nJMP 1\nMEND\n");
+  session("continue 5s");
+  const Json errors = track(session.json("spans start end"), "errors", "errors");
+  ASSERT_EQ(errors["spans"].size(), 1U);
+  EXPECT_EQ(errors["spans"][0]["at_ns"], session.json("past")["newest_ns"]);
+  EXPECT_TRUE(has(errors["spans"][0]["error"].get<std::string>(), "watchdog"));
+}
+
 TEST(WhyLatency, NamesWhatTheLastAnswerWaitedFor) {
   Asked session(our_slave());
   EXPECT_TRUE(has(session.error_of("why latency"), "no master in the simulation has had an answer"));

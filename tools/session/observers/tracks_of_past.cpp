@@ -254,7 +254,7 @@ class StationTracks {
         add_instant(TrackKind::Errors, record);
         break;
       case TraceKind::ModeChange:
-        finish_scan(record.at, scan_number_ + 1);
+        end_scan(record.at, scan_number_ + 1);
         [[fallthrough]];
       case TraceKind::Transmit:
       case TraceKind::Receive:
@@ -306,13 +306,25 @@ class StationTracks {
     for (FrameTrack& frames : frames_) frames.finish();
   }
 
+  const std::optional<LongestScan>& longest_scan() const { return longest_scan_; }
+
  private:
   void begin_scan(Time at, std::uint64_t number) {
     if (!in_part_) return;
-    finish_scan(at, number);
+    end_scan(at, number);
     scan_number_ = number;
     scan_ = {.at = at, .text = fmt::format("scan {}", number)};
     in_scan_ = true;
+  }
+
+  /// Those that were passed over after it are as long as it is.
+  void end_scan(Time at, std::uint64_t next) {
+    if (in_scan_ && next > scan_number_) {
+      const Time length = (at - scan_.at) / static_cast<Time>(next - scan_number_);
+      if (!longest_scan_ || length > longest_scan_->end - longest_scan_->at)
+        longest_scan_ = {.station = station_, .at = scan_.at, .end = scan_.at + length, .text = scan_.text};
+    }
+    finish_scan(at, next);
   }
 
   /// With those that were passed over after it.
@@ -383,6 +395,7 @@ class StationTracks {
   TrackSpan scan_{};
   bool in_scan_ = false;
   std::uint64_t scan_number_ = 0;
+  std::optional<LongestScan> longest_scan_{};
   std::string waited_{};
   std::optional<Time> occurred_{};
 };
@@ -459,6 +472,13 @@ class TracksReader final : public Reader {
     return tracks_.take();
   }
 
+  std::vector<LongestScan> longest_scans() const {
+    std::vector<LongestScan> all;
+    for (const StationTracks& station : stations_)
+      if (station.longest_scan()) all.push_back(*station.longest_scan());
+    return all;
+  }
+
   LongestAnswers take_longest() { return std::move(tracks_.longest()); }
 
  private:
@@ -490,8 +510,10 @@ Time longest_frame(const History& history) {
   return longest;
 }
 
-/// The end of a part by its time: all that was done to the simulation up to then has been done.
+/// The end of a part by its time: all that was done to the simulation up to then has been done. At the end of the past all
+/// that has happened in that instant belongs to it: the CPU may have gone to STOP in no time.
 Moment end_at(const History& history, Time time) {
+  if (time >= history.newest().time) return history.newest();
   const std::vector<Moment>& done = history.action_moments();
   const auto later = std::ranges::upper_bound(done, time, {}, &Moment::time);
   return {.actions = history.usage().forgotten + static_cast<std::size_t>(later - done.begin()), .time = time};
@@ -535,6 +557,7 @@ TracksOfPast tracks_of_past(History& history, const TracksWanted& wanted, StopTo
   play_to(std::min(wanted.to + reach, history.newest().time));
   past.tracks = reader.take();
   past.longest = reader.take_longest();
+  past.longest_scans = reader.longest_scans();
   history.go_to(now);
   return past;
 }

@@ -58,12 +58,20 @@ class LongestAnswers {
   std::vector<AnsweredFrame> all_{};
 };
 
+/// The longest scan of a PLC of those that have ended in the part; of equal ones the first.
+struct LongestScan {
+  std::size_t station = 0;
+  Time at = 0, end = 0;
+  std::string text{};  ///< as in its track
+};
+
 struct TracksOfPast {
   Time to = 0;  ///< the end of what was looked at: earlier than it was wanted after a stop request
   bool interrupted = false;
   bool with_networks = true;  ///< networks and routines were followed
   std::vector<NamedTrack> tracks{};
   LongestAnswers longest{};
+  std::vector<LongestScan> longest_scans{};  ///< by station; none of one without a scan
 };
 
 /// Up to this length of a part networks and routines are followed, and every scan is seen; in a longer one scans that are

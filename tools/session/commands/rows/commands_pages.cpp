@@ -141,6 +141,15 @@ Json longest_json(const Session& session, const LongestAnswers& longest) {
   return {{"count", longest.count()}, {"longest", std::move(all)}};
 }
 
+Json longest_json(const Session& session, const std::vector<LongestScan>& longest) {
+  Json all = Json::array();
+  for (const LongestScan& one : longest) {
+    all.push_back({{"at_ns", one.at}, {"end_ns", one.end}, {"text", one.text}});
+    if (session.is_system()) all.back()["station"] = session.name_of(one.station);
+  }
+  return all;
+}
+
 std::string track_text(const Session& session, const NamedTrack& one) {
   std::uint64_t count = 0, errors = 0;
   for (const TrackSpan& span : one.track.spans()) {
@@ -224,6 +233,7 @@ Reply spans(Session& session, const Words& arguments) {
     reply.json["tracks"].push_back(track_json(session, one));
   }
   reply.json["answers"] = longest_json(session, past.longest);
+  reply.json["longest_scans"] = longest_json(session, past.longest_scans);
   return reply;
 }
 
