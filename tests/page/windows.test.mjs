@@ -95,6 +95,49 @@ test('a window that is opened while a run follows the clock shows that it goes o
   await end(live.server);
 });
 
+const run_button = (page, text) => page.waitForFunction((text) => document.querySelector('#do-run').textContent === text, text);
+
+test('a run is one for all windows: each sees that it goes on, none begins a second one, and Pause of any ends it', async () => {
+  const plc = await view(...kPump);
+  const [one, other] = [await open(chrome, plc.address), await open(chrome, plc.address)];
+  await other.keyboard.press('e');
+  await other.waitForSelector('.notice');
+  await one.click('#do-run');
+  const third = await open(chrome, plc.address);
+  for (const page of [one, other, third]) await run_button(page, 'Pause');
+  await other.waitForSelector('.notice', { state: 'detached' });
+  const changes = await other.evaluate(() => new Promise((done) => {
+    let flips = 0, last = '';
+    const end = performance.now() + 500;
+    const look = () => {
+      const text = document.querySelector('#do-run').textContent;
+      if (text !== last) ++flips;
+      last = text;
+      if (performance.now() < end) requestAnimationFrame(look);
+      else done(flips);
+    };
+    look();
+  }));
+  assert.equal(changes, 1, 'it does not flicker');
+  await other.click('#do-run');
+  for (const page of [one, other, third]) await run_button(page, 'Run');
+  await one.waitForTimeout(200);
+  const stood = await shown(one);
+  await one.waitForTimeout(300);
+  assert.deepEqual(await shown(one), stood);
+  await other.click('#do-run');
+  await run_button(one, 'Pause');
+  await one.click('#do-scan');
+  for (const page of [one, other]) await run_button(page, 'Run');
+  await third.click('#do-run');
+  await run_button(one, 'Pause');
+  await third.close();
+  await run_button(one, 'Run');
+  await one.close();
+  await other.close();
+  await end(plc.server);
+});
+
 test('a page connects to s7200 that is started at its address again, and begins anew', async () => {
   const words = [...kPump, '--token-file', path.join(folder, 'token')];
   let running = await view(...words);

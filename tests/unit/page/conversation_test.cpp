@@ -49,6 +49,13 @@ struct Pages {
     return got.back().second;
   }
 
+  /// The reply to a piece of a run.
+  Json piece(Client client, std::string_view run) {
+    got.clear();
+    talk->handle(client, {{"id", 6}, {"command", "continue 2ms"}, {"run", run}});
+    return got.back().second;
+  }
+
   Json event(std::string_view name) const {
     for (const auto& [client, message] : got)
       if (client == 0 && message.value("event", "") == name) return message;
@@ -84,6 +91,37 @@ TEST(Page, ThatComesWhileARunGoesOnIsGreetedWithItsCommand) {
   pages.got.clear();
   pages.talk->greet(0);
   EXPECT_FALSE(pages.event("hello").contains("running"));
+}
+
+TEST(Page, SeesTheRunOfAnotherWindowAsOneUntilItEnds) {
+  Pages pages;
+  EXPECT_EQ(pages.piece(1, "begins")["json"]["stopped"], "limit");
+  EXPECT_EQ(pages.event("moved")["by"], "");
+  pages.talk->greet(0);
+  EXPECT_EQ(pages.event("hello")["running"], "continue 2ms");
+  EXPECT_FALSE(pages.piece(1, "goes on").contains("interrupted"));
+  EXPECT_TRUE(pages.event("stopped").is_null());
+  pages("break 2 always");
+  EXPECT_EQ(pages.piece(1, "goes on")["json"]["stopped"], "stop point");
+  EXPECT_EQ(pages.event("moved")["by"], "continue 2ms");
+  EXPECT_FALSE(pages.event("stopped").is_null());
+}
+
+TEST(Page, BeginsNoSecondRunAndEndsThatOfAnotherWindow) {
+  Pages pages;
+  pages.piece(1, "begins");
+  EXPECT_EQ(pages.piece(2, "begins")["error"], "a run goes on already; Pause ends it");
+  const Time now = pages.history->now().time;
+  pages.talk->handle(2, {{"stop", true}, {"run", true}});
+  EXPECT_FALSE(pages.event("stopped").is_null());
+  EXPECT_EQ(pages.piece(1, "goes on")["interrupted"], true);
+  EXPECT_EQ(pages.history->now().time, now);
+  EXPECT_FALSE(pages.piece(2, "begins").contains("error"));
+  pages.got.clear();
+  pages.talk->leave(1);
+  EXPECT_TRUE(pages.got.empty()) << "it had none";
+  pages.talk->leave(2);
+  EXPECT_FALSE(pages.event("stopped").is_null());
 }
 
 TEST(Page, GetsTheReplyToItsCommandWithItsNumber) {

@@ -55,6 +55,20 @@ TEST(PageInbox, ForgetsWhatAClientHasSentThatLeaves) {
   waiting.inbox.put(2, R"({"command": "scan"})");
   waiting.inbox.leave(1);
   EXPECT_EQ(waiting.inbox.take().client, 2U);
+  const Incoming left = waiting.inbox.take();
+  EXPECT_EQ(left.kind, Incoming::Kind::Left);
+  EXPECT_EQ(left.client, 1U);
+}
+
+TEST(PageInbox, HandsOutAStopOfARunInItsTurn) {
+  Waiting waiting;
+  waiting.inbox.put(1, R"({"stop": true})");
+  EXPECT_FALSE(waiting.inbox.take_waiting().has_value()) << "it is for what goes on";
+  waiting.inbox.put(1, R"({"id": 1, "command": "step"})");
+  waiting.inbox.put(1, R"({"stop": true, "run": true})");
+  EXPECT_TRUE(waiting.stop);
+  EXPECT_TRUE(waiting.inbox.take().undone);
+  EXPECT_TRUE(waiting.inbox.take().message.contains("stop"));
 }
 
 TEST(PageInbox, HoldsABoundedNumberOfMessagesAndBytes) {

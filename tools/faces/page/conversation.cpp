@@ -25,6 +25,13 @@ Json id_of(const Json& message) {
   return found != message.end() && (found->is_number() || found->is_string()) ? *found : Json();
 }
 
+/// A piece of a run after which it goes on: its length has passed, an answer has come, or it gave way to a command.
+bool goes_on(const Reply& reply) {
+  if (reply.error) return false;
+  const std::string* const stopped = text_in(reply.json, "stopped");
+  return reply.interrupted || (stopped && (*stopped == "limit" || *stopped == "answer"));
+}
+
 Json reply_json(const Json& id, const Reply& reply) {
   Json json{{"id", id}, {"text", reply.text}, {"json", reply.json}, {"moved", reply.moved}};
   if (reply.interrupted) json["interrupted"] = true;
@@ -70,20 +77,53 @@ void Conversation::greet(Client client) const {
   hello["may"] = std::move(may);
   hello["live"] = settings_.live;
   hello["now"] = moments_json(session_);
-  if (runs_ > 0) hello["running"] = running_;
+  if (runs_ > 0 || runner_) hello["running"] = running_;
   post_.to(client, message_of(hello));
 }
 
 void Conversation::handle(Client client, const Json& message, bool undone) {
+  if (message.contains("stop")) return end_run();
   const std::string* const command = text_in(message, "command");
   if (!command) return complain(client, "a message has a command: {\"id\": 1, \"command\": \"step\"}");
-  Json json = reply_json(id_of(message), undone ? Reply{.interrupted = true} : carry_out(*command));
+  const std::string* const run = text_in(message, "run");
+  const Reply reply = run      ? carry_on(client, *command, *run == "begins", undone)
+                      : undone ? Reply{.interrupted = true}
+                               : carry_out(*command, false);
+  Json json = reply_json(id_of(message), reply);
   if (undone) json["undone"] = true;
   post_.to(client, message_of(json));
 }
 
+/// A piece of a run. One run goes on at a time: another one is not begun, and one that somebody else has ended is over.
+Reply Conversation::carry_on(Client client, const std::string& line, bool begins, bool undone) {
+  if (begins && (runs_ > 0 || (runner_ && *runner_ != client))) return {.error = "a run goes on already; Pause ends it"};
+  if (begins) {
+    runner_ = client;
+    runner_left_ = false;
+  }
+  if (undone || runner_ != client) return {.interrupted = true};
+  Reply reply = carry_out(line, true);
+  if (!goes_on(reply) || runner_left_) end_run();
+  return reply;
+}
+
+/// Everyone is told, as nobody else knows that no further piece comes.
+void Conversation::end_run() {
+  if (!std::exchange(runner_, {})) return;
+  tell_all(event("stopped"));
+}
+
+/// One that follows the clock goes on for the other windows.
+void Conversation::leave(Client client) {
+  if (runner_ != client) return;
+  if (runs_ > 0)
+    runner_left_ = true;
+  else
+    end_run();
+}
+
 /// Up to the first wrong command of the line, or to a stop.
-Reply Conversation::carry_out(const std::string& line) {
+Reply Conversation::carry_out(const std::string& line, bool of_run) {
   Reply all;
   for (const std::string& one : commands_in(line)) {
     const Seen before = seen();
@@ -94,7 +134,7 @@ Reply Conversation::carry_out(const std::string& line) {
     all.moved |= reply.moved;
     all.interrupted = reply.interrupted;
     all.error = std::move(reply.error);
-    if (reply.moved) tell_moved(one);
+    if (reply.moved) tell_moved(of_run && goes_on(all) ? "" : one);
     tell_what_changed(before, one);
     if (all.error || all.interrupted || is_over()) break;
   }

@@ -55,6 +55,9 @@ class Conversation final : private Onlooker {
   /// Carries out a message and replies to it. `undone`: its client has asked for a stop before it came to it.
   void handle(Client client, const Json& message, bool undone = false);
 
+  /// A client is gone; a run that it has carried on piece by piece is over.
+  void leave(Client client);
+
   /// Something came that is no message: what is wrong with it.
   void complain(Client client, const std::string& why) const;
 
@@ -78,7 +81,9 @@ class Conversation final : private Onlooker {
 
   struct Seen;
   Seen seen() const;
-  Reply carry_out(const std::string& line);
+  Reply carry_out(const std::string& line, bool of_run);
+  Reply carry_on(Client client, const std::string& line, bool begins, bool undone);
+  void end_run();
   void tell_what_changed(const Seen& before, const std::string& command);
   void tell_all(Json event) const;
   void tell_moved(const std::string& by) const;
@@ -88,6 +93,8 @@ class Conversation final : private Onlooker {
   Session session_;
   int runs_ = 0;  ///< that go on; all but the last one are paused
   std::string running_{};  ///< the command of the run that goes on
+  std::optional<Client> runner_{};  ///< who carries a run on piece by piece
+  bool runner_left_ = false;
   Time news_at_ = 0;
   std::uint32_t executed_ = 0;
 };

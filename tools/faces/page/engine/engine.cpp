@@ -126,7 +126,8 @@ void Engine::take(std::string_view text) {
   const auto message = parse_json(text);
   if (!message || !message->is_object())
     return send_(line_of({{"id", nullptr}, {"error", message ? "not a JSON object" : message.why()}}));
-  if (message->contains("stop")) return;  // nothing goes on while a message is taken
+  const bool ends_run = talk_ && message->contains("run");
+  if (message->contains("stop") && !ends_run) return;  // no command goes on while a message is taken
   if (message->contains("open")) return open(*message);
   if (!talk_) return send_(line_of({{"id", member_or_null(*message, "id")}, {"error", "open a program first"}}));
   talk_->handle(kPage, *message);

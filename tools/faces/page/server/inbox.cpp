@@ -17,6 +17,7 @@ void Inbox::join(Client client) {
 void Inbox::leave(Client client) {
   const std::lock_guard lock(mutex_);
   std::erase_if(waiting_, [client](const Incoming& one) { return one.client == client; });
+  add({.kind = Incoming::Kind::Left, .client = client});
 }
 
 std::string Inbox::put(Client client, const std::string& text) {
@@ -26,12 +27,15 @@ std::string Inbox::put(Client client, const std::string& text) {
   if (message && !message->is_object()) why = "not a JSON object";
   const std::lock_guard lock(mutex_);
   if (const std::string full = why_full(client, text.size()); !full.empty()) return full;
-  if (!why.empty())
+  if (!why.empty()) {
     add({.kind = Incoming::Kind::Unreadable, .client = client, .message = why, .bytes = text.size()});
-  else if (message->contains("stop"))
+    return {};
+  }
+  if (message->contains("stop")) {
     stop_for(client);
-  else
-    add({.kind = Incoming::Kind::Message, .client = client, .message = std::move(*message), .bytes = text.size()});
+    if (!message->contains("run")) return {};
+  }
+  add({.kind = Incoming::Kind::Message, .client = client, .message = std::move(*message), .bytes = text.size()});
   return {};
 }
 

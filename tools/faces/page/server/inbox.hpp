@@ -18,7 +18,7 @@
 namespace s7200::tools::page {
 
 struct Incoming {
-  enum class Kind : std::uint8_t { Joined, Message, Unreadable, Ended };
+  enum class Kind : std::uint8_t { Joined, Message, Unreadable, Left, Ended };
 
   Kind kind{};
   Client client = 0;

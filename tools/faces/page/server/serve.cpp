@@ -23,6 +23,9 @@ void hand_over(Conversation& talk, const Incoming& incoming) {
     case Incoming::Kind::Unreadable:
       talk.complain(incoming.client, incoming.message.get<std::string>());
       break;
+    case Incoming::Kind::Left:
+      talk.leave(incoming.client);
+      break;
     case Incoming::Kind::Ended:
       break;
   }

@@ -1,5 +1,5 @@
 // What runs the session: s7200 at the other end of a WebSocket, or the same in a worker of the browser. Both take the same messages.
-import type { Notification, Openable, Opened, Recorded, Reply } from './protocol';
+import type { Notification, Openable, Opened, PieceOfRun, Recorded, Reply } from './protocol';
 
 export type Connection = 'connecting' | 'connected' | 'lost' | 'ended';
 
@@ -10,9 +10,9 @@ export interface Onlooker {
 
 export interface Engine {
   /** A line as at the prompt of `s7200 debug`. */
-  command<Json>(line: string): Promise<Reply<Json>>;
-  /** Ends the run that is under way, if it can be stopped. */
-  stop(): void;
+  command<Json>(line: string, run?: PieceOfRun): Promise<Reply<Json>>;
+  /** Ends the command that is under way, if it can be stopped; and a run that goes on piece by piece, of whichever window. */
+  stop(run?: boolean): void;
   /** Whether a run hears of a stop before it is over. */
   readonly can_be_stopped: boolean;
   /** Another program or system; only of the engine in the browser. */
@@ -76,12 +76,12 @@ export class SocketEngine implements Engine {
     this.connect();
   }
 
-  command<Json>(line: string): Promise<Reply<Json>> {
-    return this.conversation.ask<Json>({ command: line });
+  command<Json>(line: string, run?: PieceOfRun): Promise<Reply<Json>> {
+    return this.conversation.ask<Json>(run ? { command: line, run } : { command: line });
   }
 
-  stop(): void {
-    this.conversation.tell({ stop: true });
+  stop(run = false): void {
+    this.conversation.tell(run ? { stop: true, run } : { stop: true });
   }
 
   private connect(): void {
@@ -128,12 +128,12 @@ export class WorkerEngine implements Engine {
     onlooker.connection('connected');
   }
 
-  command<Json>(line: string): Promise<Reply<Json>> {
-    return this.conversation.ask<Json>({ command: line });
+  command<Json>(line: string, run?: PieceOfRun): Promise<Reply<Json>> {
+    return this.conversation.ask<Json>(run ? { command: line, run } : { command: line });
   }
 
-  stop(): void {
-    this.conversation.tell({ stop: true });
+  stop(run = false): void {
+    this.conversation.tell(run ? { stop: true, run } : { stop: true });
   }
 
   open(what: Openable, recording?: Recorded): Promise<Reply<Opened>> {

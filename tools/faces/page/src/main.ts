@@ -25,7 +25,7 @@ const onlooker: Onlooker = {
   connection: (connection) => {
     if ((state.connection === 'ended' || connection === 'connecting') && connection !== 'connected') return;
     state.connection = connection;
-    if (connection === 'lost') state.running = false;
+    if (connection === 'lost') state.running = state.others_run = false;
     changed();
   },
 };

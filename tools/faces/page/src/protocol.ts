@@ -2,6 +2,9 @@
 
 export const kProtocol = 1;
 
+/** A command is a piece of a run: the first one, or a further one. */
+export type PieceOfRun = 'begins' | 'goes on';
+
 /** Where the session stands; times in ns of simulated time. */
 export interface Past {
   now_ns: number;
@@ -47,6 +50,7 @@ export type Notification =
   | { event: 'moved'; now: Past; by: string }
   | { event: 'changed'; by: string }
   | { event: 'running'; command: string }
+  | { event: 'stopped' }
   | { event: 'printed'; text: string }
   | { event: 'ended'; why: string };
 
@@ -251,6 +255,14 @@ export interface Spans {
   left_out?: string[];
   tracks: SpanTrack[];
   answers?: Answers;
+  longest_scans?: LongestScan[];
+}
+
+export interface LongestScan {
+  at_ns: number;
+  end_ns: number;
+  text: string;
+  station?: string;
 }
 
 /** What a PLC has sent after what it received: how often, and when it took longest. */

@@ -1,5 +1,5 @@
 // Run and Pause. A session that follows the clock runs by itself; another one is run piece by piece, at the pace that was chosen.
-import type { Stopped } from './protocol';
+import type { PieceOfRun, Stopped } from './protocol';
 import { changed, state, the_engine } from './state';
 import { switch_due, time_to_edge_ns } from './pulses';
 import { begin_to_move, print, run_piece_of, say_why_stopped, take_over } from './session';
@@ -13,10 +13,19 @@ const kGoesOn = new Set(['limit', 'answer']);
 
 const pause_of = (ms: number): Promise<void> => new Promise((done) => setTimeout(done, ms));
 
+/** The next piece is the first one of a run. */
+let begins = false;
+
+function piece_of_run(): PieceOfRun {
+  const piece = begins ? 'begins' : 'goes on';
+  begins = false;
+  return piece;
+}
+
 /** Runs that long without an edge of a pulse train. Returns whether the run goes on. */
 async function run_on(length_ns: number): Promise<boolean> {
   const is_long = state.pace === 0 && the_engine().can_be_stopped;
-  const reply = await run_piece_of<Stopped>(`continue ${Math.max(1, Math.round(length_ns))}ns`, is_long);
+  const reply = await run_piece_of<Stopped>(`continue ${Math.max(1, Math.round(length_ns))}ns`, is_long, piece_of_run());
   if (reply.gave_way) return true;
   if (reply.error !== undefined || reply.interrupted) return false;
   if (reply.json?.stopped !== 'limit') print(reply.text);
@@ -50,7 +59,7 @@ async function run_paced(goes_on: () => boolean): Promise<void> {
 /** A run that follows the clock carries out commands meanwhile. */
 async function run_live(goes_on: () => boolean): Promise<void> {
   while (goes_on()) {
-    const reply = await run_piece_of<Stopped>(`continue ${kWithoutEnd}`, false);
+    const reply = await run_piece_of<Stopped>(`continue ${kWithoutEnd}`, false, piece_of_run());
     if (reply.interrupted || reply.error !== undefined) return;
     print(reply.text);
     say_why_stopped(reply);
@@ -62,10 +71,12 @@ export async function run(): Promise<void> {
   if (state.running) return;
   take_over();
   state.own_run = true;
+  begins = true;
   const is_last = begin_to_move();
   await (state.hello?.live ? run_live : run_paced)(() => state.own_run && is_last());
   if (!is_last()) return;
   state.own_run = false;
+  state.others_run = false;
   state.running = false;
   changed();
 }

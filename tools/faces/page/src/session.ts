@@ -1,7 +1,7 @@
 // What the page does with its session: commands, and the queries about what is seen, asked anew whenever it has moved.
 import { changed, notice, state, the_engine } from './state';
 import { kProtocol } from './protocol';
-import type { Hello, Line, Notification, Outline, Past, Reply, Status, Stopped, Stops, Value } from './protocol';
+import type { Hello, Line, Notification, Outline, Past, PieceOfRun, Reply, Status, Stopped, Stops, Value } from './protocol';
 import { is_one_word, query_of } from './formats';
 import { load_marks } from './marks';
 import { forget_pulses } from './pulses';
@@ -43,12 +43,45 @@ function heard<Json>(line: string, reply: Reply<Json>): Reply<Json> {
   return reply;
 }
 
+/** What takes the session for itself and is not done yet, in the order in which it was asked, and since when the first one has it. */
+const under_way = new Set<object>();
+let first_since = 0;
+
+async function taking<Json>(asked: Promise<Reply<Json>>): Promise<Reply<Json>> {
+  const mine = {};
+  if (under_way.size === 0) first_since = performance.now();
+  under_way.add(mine);
+  const reply = await asked;
+  under_way.delete(mine);
+  first_since = performance.now();
+  return reply;
+}
+
+const kPatience = 1000;  // ms that what takes long may go on while something that was asked after it waits
+const kLook = 100;  // ms until that is looked at again
+
+/** Ends what was asked before and takes long. */
+async function behind<Json>(asked: Promise<Reply<Json>>, before: object[]): Promise<Reply<Json>> {
+  const look = setInterval(() => {
+    if (before.some((one) => under_way.has(one)) && performance.now() - first_since > kPatience) the_engine().stop();
+  }, kLook);
+  const reply = await asked;
+  clearInterval(look);
+  return reply;
+}
+
+/** Asks what waits no longer than that for what takes long. */
+function ask_in_turn<Json>(line: string): Promise<Reply<Json>> {
+  const before = [...under_way], asked = the_engine().command<Json>(line);
+  return before.length === 0 ? asked : behind(asked, before);
+}
+
 /** Carries out a command: during a piece of a run at once, and after a stop that has come before it. */
 export async function command<Json = unknown>(line: string): Promise<Reply<Json>> {
   let reply: Reply<Json>;
   do {
     interrupt_piece();
-    reply = await the_engine().command<Json>(line);
+    reply = await ask_in_turn<Json>(line);
   } while (reply.undone);
   return heard(line, reply);
 }
@@ -63,10 +96,10 @@ function interrupt_piece(): void {
 }
 
 /** Carries out a piece of a run. One that has only given way to a command counts as one whose length has passed. */
-export async function run_piece_of<Json = unknown>(line: string, is_long: boolean): Promise<Reply<Json> & { gave_way?: boolean }> {
+export async function run_piece_of<Json = unknown>(line: string, is_long: boolean, run: PieceOfRun): Promise<Reply<Json> & { gave_way?: boolean }> {
   in_piece = is_long;
   gives_way = false;
-  const reply = await the_engine().command<Json>(line), gave_way = gives_way && reply.interrupted === true;
+  const reply = await the_engine().command<Json>(line, run), gave_way = gives_way && reply.interrupted === true;
   in_piece = gives_way = false;
   return { ...heard(line, reply), gave_way };
 }
@@ -77,6 +110,15 @@ export async function query<Json>(line: string): Promise<Reply<Json>> {
     const reply = await the_engine().command<Json>(line);
     if (!reply.interrupted || reply.json !== null) return reply;
   }
+}
+
+/** A query of a search, which may take long: what is wanted next ends it. One that has ended for a command is asked again. */
+export async function look_through<Json>(line: string, is_wanted: () => boolean): Promise<Reply<Json>> {
+  ++searches;
+  let reply: Reply<Json>;
+  do reply = await taking(ask_in_turn<Json>(line)); while (reply.interrupted && is_wanted());
+  --searches;
+  return reply;
 }
 
 const kChunk = 200;  // lines of the program that are asked for at once
@@ -223,6 +265,7 @@ function forget_answers(): void {
   ++movements;
   state.running = false;
   state.own_run = false;
+  state.others_run = false;
   state.spans = null;
   state.exchanges = null;
   state.selected_span = null;
@@ -279,6 +322,16 @@ function propose_points(outline: Outline): void {
   state.outputs = points('Q');
 }
 
+/** What moves the session was begun by another page, or by a prompt. */
+function is_of_others(): boolean {
+  return !state.own_run && moving === 0;
+}
+
+function others_run(goes_on: boolean): void {
+  state.others_run = goes_on;
+  state.running = goes_on;
+}
+
 export function notified(note: Notification): void {
   switch (note.event) {
     case 'hello':
@@ -290,12 +343,17 @@ export function notified(note: Notification): void {
       }
       state.hello = note;
       state.past = note.now;
-      state.running = note.running !== undefined;
+      others_run(note.running !== undefined);
       load_marks();
       void get_acquainted().then(follow_link);
       break;
     case 'moved':
-      if (!state.own_run) state.running = note.by === '';  // a run that another page has begun
+      if (is_of_others()) {
+        if (!state.running) begin_anew();
+        others_run(note.by === '');
+      } else if (!state.own_run) {
+        state.running = note.by === '';
+      }
       came_to(note.now);
       break;
     case 'changed':
@@ -304,7 +362,11 @@ export function notified(note: Notification): void {
       refresh_all();
       break;
     case 'running':
-      state.running = true;
+      if (!state.running) begin_anew();
+      if (is_of_others()) others_run(true);
+      break;
+    case 'stopped':
+      if (is_of_others()) others_run(false);
       break;
     case 'printed':
       print(note.text);
@@ -312,6 +374,7 @@ export function notified(note: Notification): void {
     case 'ended':
       state.why_ended = note.why;
       state.connection = 'ended';
+      others_run(false);
       break;
   }
   changed();
@@ -374,11 +437,20 @@ export async function look_at(station: string): Promise<void> {
 }
 
 let tasks = 0;
+let searches = 0;  // queries of searches that are under way
 
 /** What takes long is given up when something else is wanted. Returns whether nothing has been since. */
 export function take_over(): () => boolean {
   ++tasks;
+  if (searches > 0) the_engine().stop();
   return unless_taken_over();
+}
+
+/** The same for what does not begin where the session is on its way to: what moves it ends at once. */
+export async function take_over_at_once(): Promise<() => boolean> {
+  const is_wanted = take_over();
+  if (moving > 0) await run_ended();
+  return is_wanted;
 }
 
 /** The same for what begins by itself: it ends nothing that the reader wants. */
@@ -394,6 +466,8 @@ export function begin_anew(): void {
 }
 
 let movements = 0;
+let pauses = 0;
+let moving = 0;  // how many commands of this page are under way that move the session
 
 /** Something moves the session from now on. Returns whether nothing else has begun to since. */
 export function begin_to_move(): () => boolean {
@@ -404,9 +478,12 @@ export function begin_to_move(): () => boolean {
   return () => mine === movements;
 }
 
+/** Ends what goes on, whoever has begun it. */
 export function pause(): void {
+  ++pauses;
   state.own_run = false;
-  the_engine().stop();
+  if (state.others_run) others_run(false);
+  the_engine().stop(true);
 }
 
 /** Ends a run: then it is known how far it has come. */
@@ -424,35 +501,51 @@ export async function move<Json = unknown>(line: string): Promise<Reply<Json>> {
 
 /** The same as a step of something that goes on after it. */
 export async function move_on<Json = unknown>(line: string): Promise<Reply<Json>> {
-  if (state.own_run) pause();
-  const is_last = begin_to_move();
-  const reply = heard(line, await the_engine().command<Json>(line));
+  if (state.own_run || state.others_run) pause();
+  const is_last = begin_to_move(), pauses_before = pauses;
+  ++moving;
+  let reply: Reply<Json>;
+  do reply = await taking(ask_in_turn<Json>(line)); while (reply.undone && pauses === pauses_before);
+  --moving;
+  heard(line, reply);
   say_why_stopped(reply as Reply<any>);
   if (is_last()) state.running = false;
   changed();
   return reply;
 }
 
-/** Runs to a moment or a stop point: an answer to a master's request, at which `continue` ends, is none. */
-export async function run_to(end_ns: number, is_wanted: () => boolean): Promise<Reply<Stopped>> {
-  const left = (): number => end_ns - (state.past?.now_ns ?? end_ns);
-  for (;;) {
-    const run = await move_on<Stopped>(`continue ${moment_word(left())}`);
-    if (!is_wanted() || run.interrupted || run.json?.stopped !== 'answer' || left() <= 0) return run;
+const kFirstPart = 1e9;  // ns
+const kPartTakes = 300;  // ms of the reader's time
+
+/**
+ * Runs to a moment or a stop point: an answer to a master's request, at which `continue` ends, is none. An engine that hears of nothing
+ * before it is done runs part by part. Returns why it has ended; nothing where there is nothing left to run.
+ */
+export async function run_to(end_ns: number, is_wanted: () => boolean): Promise<Reply<Stopped> | undefined> {
+  const left = (): number => end_ns - (state.past?.now_ns ?? end_ns), pauses_before = pauses;
+  let run: Reply<Stopped> | undefined;
+  for (let part = the_engine().can_be_stopped ? Infinity : kFirstPart; left() > 0;) {
+    const length = Math.min(part, left()), began = performance.now();
+    run = await move_on<Stopped>(`continue ${moment_word(length)}`);
+    if (pauses !== pauses_before) return { ...run, interrupted: true };
+    const goes_on = run.json?.stopped === 'answer' || (length === part && run.json?.stopped === 'limit');
+    if (!is_wanted() || run.interrupted || !goes_on) return run;
+    part *= Math.min(4, Math.max(0.25, kPartTakes / Math.max(1, performance.now() - began)));
   }
+  return run;
 }
 
-/** A moment that has not been yet is run to. Returns whether nothing else is wanted meanwhile. */
+/** A moment that has not been yet is run to. Returns whether it is there, and nothing else was wanted meanwhile. */
 export async function go_to(ns: number): Promise<boolean> {
-  const wanted = Math.max(0, Math.round(ns)), is_wanted = take_over();
-  if (state.own_run) await run_ended();
+  const wanted = Math.max(0, Math.round(ns)), is_wanted = await take_over_at_once();
+  if (state.own_run || state.others_run) await run_ended();
+  if (!is_wanted()) return false;
   if (wanted <= (state.past?.newest_ns ?? 0)) {
-    await move_on(`at ${moment_word(wanted)}`);
-    return is_wanted();
+    const went = await move_on(`at ${moment_word(wanted)}`);
+    return is_wanted() && !went.interrupted;
   }
   if (state.past?.in_the_past && (await move_on('at end')).interrupted) return false;
-  if (is_wanted()) await run_to(wanted, is_wanted);
-  return is_wanted();
+  return is_wanted() && !(await run_to(wanted, is_wanted))?.interrupted && is_wanted();
 }
 
 /** Goes to a moment that someone has named. The CPU stands between instructions only: it says so if none begins right then. */

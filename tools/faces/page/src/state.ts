@@ -48,6 +48,8 @@ export interface State {
   running: boolean;
   /** It is this page that runs it, piece by piece. */
   own_run: boolean;
+  /** Another page does. */
+  others_run: boolean;
   /** Simulated seconds a second; 0: as fast as it goes. */
   pace: number;
   /** What is said over the status bar; of a command that was refused with the kind of command. */
@@ -133,6 +135,7 @@ export const state: State = {
   past: null,
   running: false,
   own_run: false,
+  others_run: false,
   pace: 1,
   notice: null,
   dialog: null,
