@@ -141,6 +141,17 @@ test('an address with a moment opens at that moment', async () => {
   await page.close();
 });
 
+test('an address with a moment that is still to come, or with none, says so', async () => {
+  const page = await open(chrome, `${plc.address}#t=99999s`);
+  await page.waitForSelector('.notice:has-text("The address leads to 27:46:39.000000, which is still to come")');
+  const before = await moment(page);
+  await page.evaluate(() => { location.hash = '#t=garbage'; });
+  await page.waitForSelector(`.notice.error:has-text("'garbage' in the address is no moment")`);
+  assert.equal(await moment(page), before);
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
 test('the help lists each key once, and Escape closes it', async () => {
   const page = await open(chrome, plc.address);
   await page.keyboard.press('?');

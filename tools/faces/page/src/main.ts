@@ -1,7 +1,7 @@
 // The page: connects to what runs the session, and renders what is known of it.
 import { h, render, type Part } from './dom';
 import { SocketEngine, WorkerEngine, type Engine, type Onlooker } from './engine';
-import { notified, go_to_named } from './session';
+import { follow_address, notified } from './session';
 import { changed, on_change, state, use_engine } from './state';
 import { apply_theme, begin_theme, on_key } from './actions';
 import { toolbar } from './panes/toolbar';
@@ -18,7 +18,6 @@ import { start_timeline } from './timeline/view';
 import { start_futures } from './futures';
 import { accept_drops, open_from_address } from './playground';
 import { open_report, opens_another_run } from './report';
-import { moment_of_link } from './words';
 
 const onlooker: Onlooker = {
   notified,
@@ -93,9 +92,7 @@ function start(): void {
   addEventListener('keydown', on_key);
   addEventListener('resize', changed);
   addEventListener('hashchange', () => {
-    if (opens_another_run()) return;
-    const ns = moment_of_link(location.hash);
-    if (ns !== undefined && ns !== state.past?.now_ns) void go_to_named(ns);
+    if (!opens_another_run()) void follow_address();
   });
   use_engine(engine());
   accept_drops();

@@ -5,7 +5,7 @@ import type { Hello, Line, Notification, Outline, Past, PieceOfRun, Reply, Statu
 import { is_one_word, query_of } from './formats';
 import { load_marks } from './marks';
 import { forget_pulses } from './pulses';
-import { duration_text, moment_of_link, moment_text, moment_word } from './words';
+import { duration_text, moment_of_link, moment_text, moment_word, written_in_link } from './words';
 
 /** Something that is seen: asked for again as soon as it may differ, one question at a time. */
 export class Seen {
@@ -300,13 +300,25 @@ export function when_begun(does: (may_go: boolean) => Promise<void>): void {
   at_first_moment = does;
 }
 
-/** The moment that the address of the page names, once there is a session. */
-async function follow_link(): Promise<void> {
-  const named = moment_of_link(location.hash), asked = named ?? state.first_moment ?? undefined;
+const kRunsForLink = 60e9;  // ns that a session is run for a link in which nothing has run yet
+
+/** Goes to the moment that the address of the page names, if it names one. What has not been yet is run to if the reader asks for it. */
+export async function follow_address(): Promise<void> {
+  const written = written_in_link(location.hash), ns = moment_of_link(location.hash), newest_ns = state.past?.newest_ns ?? 0;
+  if (written === undefined || ns === state.past?.now_ns) return;
+  if (ns === undefined) notice(`'${written}' in the address is no moment; write for example #t=15.193ms`, 'error');
+  else if (ns > newest_ns && (newest_ns > 0 || ns > kRunsForLink))
+    notice(`The address leads to ${moment_text(ns)}, which is still to come: the newest moment is ${moment_text(newest_ns)}. Type it as the moment (g) to run on to it`);
+  else await go_to_named(ns);
+}
+
+/** Where the page begins, once there is a session. */
+async function go_to_begin(): Promise<void> {
+  const asked = state.first_moment ?? undefined;
   state.first_moment = null;
-  if (named !== undefined && named !== state.past?.now_ns) return go_to_named(named);
+  if (written_in_link(location.hash) !== undefined) return follow_address();
   const is_there = asked === undefined || asked === state.past?.now_ns || await go_to(asked);
-  if (named === undefined) await at_first_moment(is_there);
+  await at_first_moment(is_there);
 }
 
 /** The inputs and outputs of the program, its symbols and the first bytes of the CPU, as switches and lamps. */
@@ -345,7 +357,7 @@ export function notified(note: Notification): void {
       state.past = note.now;
       others_run(note.running !== undefined);
       load_marks();
-      void get_acquainted().then(follow_link);
+      void get_acquainted().then(go_to_begin);
       break;
     case 'moved':
       if (is_of_others()) {

@@ -58,14 +58,19 @@ export function moment_from(text: string): number | undefined {
   return Math.round(Number(parts[1]!.replace(',', '.')) * kUnits[parts[2]!.toLowerCase()]!);
 }
 
+/** What is written for a moment in `#t=15.193ms`; undefined where there is none. */
+export function written_in_link(hash: string): string | undefined {
+  const written = /[#&]t=([^&]*)/.exec(hash)?.[1];
+  try {
+    return written === undefined ? undefined : decodeURIComponent(written);
+  } catch {
+    return written;  // such as `%` alone
+  }
+}
+
 /** The moment of `#t=15.193ms`. */
 export function moment_of_link(hash: string): number | undefined {
-  const written = /[#&]t=([^&]+)/.exec(hash)?.[1];
-  try {
-    return written === undefined ? undefined : moment_from(decodeURIComponent(written));
-  } catch {
-    return undefined;  // such as `%` alone
-  }
+  return moment_from(written_in_link(hash) ?? '');
 }
 
 export function link_of(ns: number): string {
