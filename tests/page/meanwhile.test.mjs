@@ -276,6 +276,130 @@ test('a moment that is yet to come is run to past answers', async () => {
   assert.equal(await there, true);
 });
 
+const kHour = 3600e9;
+/** The moves and stops, without what panes ask for. */
+const asked = () => engine.all.filter((line) => !/^(past|status|values|spans|actions)/.test(line));
+
+test('a moment that is wanted during a long go-to is gone to at once, from where that has come to', async () => {
+  void page.go_to(20 * kHour);
+  await rest();
+  moved(moment(50), '');
+  engine.answers.past = { json: moment(60) };
+  const there = page.go_to_named(1000);
+  await engine.answer('continue', { interrupted: true, json: { stopped: 'request' } });
+  await rest();
+  assert.deepEqual(asked(), ['continue 72000000000000ns', 'stop', 'continue 940ns']);
+  moved(moment(1000));
+  await engine.answer('continue', { json: { stopped: 'limit' } });
+  await there;
+  assert.equal(state.notice, null);
+});
+
+test('a go-to that is paused says nothing of moments', async () => {
+  const there = page.go_to_named(1000);
+  await rest();
+  page.pause();
+  await engine.answer('continue', { interrupted: true, json: { stopped: 'request' } });
+  moved(moment(500, 2000));
+  await there;
+  assert.equal(state.notice, null);
+  const back = page.go_to_named(10);
+  await rest();
+  page.pause();
+  await engine.answer('at', { interrupted: true, undone: true });
+  await back;
+  assert.equal(state.notice, null);
+  assert.equal(engine.count('at'), 1, 'it was paused');
+});
+
+test('a step and a command wait for a short go-to, and end a long one', async () => {
+  for (const [line, ask] of [['scan', () => page.move('scan')], ['input', () => page.command('input I0.0=1')]]) {
+    await begin();
+    void page.go_to(20 * kHour);
+    await rest();
+    const done = ask();
+    await rest(300);
+    assert.equal(engine.count('stop'), 0);
+    await rest(1000);
+    assert.ok(engine.count('stop') > 0);
+    await engine.answer('continue', { interrupted: true, json: { stopped: 'request' } });
+    await engine.answer(line, { interrupted: true, undone: true });
+    await engine.answer(line, { json: {} });
+    assert.equal((await done).undone, undefined, line);
+  }
+});
+
+test('what is wanted during a search ends it', async () => {
+  await begin(moment(0, 100 * kHour));
+  delete engine.answers.spans;
+  const search = page.find_unanswered();
+  await rest();
+  void page.move('scan');
+  assert.deepEqual(asked(), ['stop', 'scan']);
+  const { length } = engine.asked;
+  await engine.answer('spans 1ns', { interrupted: true, ...kSpans });
+  await search;
+  assert.equal(engine.asked.length, length - 1, 'and it is not begun again');
+  await engine.answer('scan');
+});
+
+test('an engine that hears of nothing meanwhile runs to a moment part by part', async () => {
+  engine.can_be_stopped = false;
+  const there = page.go_to(kHour);
+  await engine.answer('continue 1000000000ns', { json: { stopped: 'limit' } });
+  page.pause();
+  moved(moment(5e9));
+  await engine.answer('continue', { json: { stopped: 'limit' } });
+  assert.equal(await there, false);
+  assert.equal(engine.count('continue'), 2);
+});
+
+/** The CPU stands a little after what is gone to. */
+const kLate = 7;
+const stands_late = (newest_ns) => {
+  engine.answers.at = (line) => {
+    moved(moment(Number(/\d+/.exec(line)[0]) + kLate, newest_ns), line);
+    return {};
+  };
+};
+const in_part = (line, spans) => {
+  const [from, to] = line.match(/\d+/g).map(Number);
+  return spans.filter((one) => one.at_ns <= to && one.end_ns >= from);
+};
+/** Where each step of a search comes to, until it stays. */
+async function places(search) {
+  const all = [];
+  for (let i = 0; i < 5; ++i) {
+    const before = state.past.now_ns;
+    await search();
+    if (state.past.now_ns === before) break;
+    all.push(state.past.now_ns - kLate);
+  }
+  return all;
+}
+
+test('errors are walked through one by one, forwards and back', async () => {
+  const errors = [200, 500, 503, 900].map((at_ns) => ({ at_ns, end_ns: at_ns, text: 'lost', error: 'lost' }));
+  await begin(moment(0, 1000));
+  engine.answers.spans = (line) => ({ json: { from_ns: 0, to_ns: 1000, tracks: [{ kind: 'errors', name: 'errors', exact: true, spans: in_part(line, errors) }] } });
+  stands_late(1000);
+  assert.deepEqual(await places(() => page.find_error(1)), [200, 500, 503, 900]);
+  assert.match(state.notice.text, /after this moment/);
+  assert.deepEqual(await places(() => page.find_error(-1)), [503, 500, 200]);
+  assert.match(state.notice.text, /before this moment/);
+});
+
+test('requests without an answer are walked through one by one, from within one too', async () => {
+  const frames = [100, 400, 700].map((at_ns) => ({ at_ns, end_ns: at_ns + 50, text: 'received 01 03: station 1: read holding registers' }));
+  await begin(moment(0, 5e9));
+  engine.answers.spans = (line) => ({ json: { from_ns: 0, to_ns: 5e9, tracks: [{ kind: 'frames', name: 'port 0', exact: true, spans: in_part(line, frames) }] } });
+  stands_late(5e9);
+  assert.deepEqual(await places(page.find_unanswered), [100, 400, 700]);
+  assert.equal(state.notice.text, 'No unanswered request after this moment');
+  moved(moment(120, 5e9));
+  assert.deepEqual(await places(page.find_unanswered), [400, 700]);
+});
+
 test('a search for a condition that is paused says nothing of the condition', async () => {
   for (const end of [{ interrupted: true, json: { stopped: 'request' } }, { error: 'no', json: null }, { json: { stopped: 'CPU' }, text: 'STOP' }]) {
     await begin();

@@ -1,5 +1,8 @@
 // The timeline and the line: tracks, zoom, cursors, searches, a request and its answer.
 import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { browser, end, moment, open, picture, rendered, view } from './support.mjs';
 
@@ -350,4 +353,34 @@ test('the present is in view, with room, at the end of the past and wherever a s
   await page.click('.exchanges tr.trouble .why');
   await page.waitForSelector('.trail li:has-text("no answer?")');
   await is_seen('what kept a request from an answer');
+});
+
+const kLoops = 'LD SM0.0\nINCW VW10\nLBL 1\nLDW>= VW10, 50\nJMP 1\nMEND\n';
+
+test('the watchdog that ends the past is found, and the longest scan however short it is', async () => {
+  const folder = mkdtempSync(path.join(tmpdir(), 's7200-'));
+  writeFileSync(path.join(folder, 'loops.stl'), kLoops);
+  const loops = await view(path.join(folder, 'loops.stl')), page = await open(chrome, loops.address);
+  const said = (words) => page.waitForFunction((words) => new RegExp(words).test(document.querySelector('.notice span')?.textContent), words.source);
+  await page.keyboard.press('s');
+  await page.keyboard.press('s');
+  await page.waitForFunction(() => document.querySelector('.scan-number').textContent === 'scan 3');
+  await page.keyboard.press('Shift+C');
+  await said(/^The longest scan since power-up lasted [\d.]+ µs: scan 1\./);
+  await page.keyboard.press('End');
+  await page.waitForSelector('.tag.now');
+  await page.fill('#moment', '2s');
+  await page.press('#moment', 'Enter');
+  await page.waitForSelector('.lamp.fault.on');
+  await page.keyboard.press('Home');
+  await page.waitForSelector('.tag.past');
+  await page.keyboard.press('e');
+  await page.waitForSelector('.notice:has-text("watchdog")');
+  await page.waitForSelector('.lamp.fault.on');
+  await page.keyboard.press('Shift+C');
+  await said(/lasted 3[\d.]+ ms: scan 50\./);
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+  await end(loops.server);
+  rmSync(folder, { recursive: true });
 });

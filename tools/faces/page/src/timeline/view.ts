@@ -1,5 +1,5 @@
 // Which part of the past the timeline shows, and what it asks for: a little more than the window, so that moving it is smooth.
-import { also_seen, go_to, query, Seen } from '../session';
+import { also_seen, go_to, look_through, query, Seen } from '../session';
 import { changed, show_pane, state } from '../state';
 import { is_one_word } from '../formats';
 import { moment_word } from '../words';
@@ -20,9 +20,18 @@ export function window_of(): { from_ns: number; to_ns: number } {
   return { from_ns, to_ns: newest + (newest - from_ns) * kMargin };
 }
 
+function query_of(from_ns: number, to_ns: number, elements: number, watched: string[]): string {
+  return `spans ${[moment_word(from_ns), moment_word(to_ns), String(elements), ...watched.filter(is_one_word)].join(' ')}`;
+}
+
 export async function spans_between(from_ns: number, to_ns: number, elements = kElements, watched: string[] = []): Promise<Spans | null> {
-  const words = [moment_word(from_ns), moment_word(to_ns), String(elements), ...watched.filter(is_one_word)];
-  return (await query<Spans>(`spans ${words.join(' ')}`)).json;
+  return (await query<Spans>(query_of(from_ns, to_ns, elements, watched))).json;
+}
+
+/** The same for a search. Nothing if something else is wanted meanwhile. */
+export async function spans_searched(from_ns: number, to_ns: number, is_wanted: () => boolean, elements = kElements): Promise<Spans | null> {
+  const reply = await look_through<Spans>(query_of(from_ns, to_ns, elements, []), is_wanted);
+  return is_wanted() ? reply.json : null;
 }
 
 const kLate = 300;   // ms after which it is said that something is being computed
@@ -109,7 +118,7 @@ let followed_ns = 0;
 
 /** Whether a run goes on, not just a step: then the timeline shows what was known of it last. */
 export function runs_on(): boolean {
-  return state.running && (state.own_run || state.hello?.live === true);
+  return state.running && (state.own_run || state.others_run || state.hello?.live === true);
 }
 
 /** The present as the timeline shows it. */
@@ -201,8 +210,16 @@ const kWidest = 10e9, kLeastFound = 20e6;  // ns
 /** Goes to what was found. */
 export async function show_found(found: { at_ns: number; end_ns: number }): Promise<void> {
   goes_along = true;
-  await go_to(found.at_ns);
+  if (await go_to(found.at_ns)) found_last = { at_ns: found.at_ns, shown_ns: state.past?.now_ns ?? 0 };
   bring_into_view(found);
+}
+
+let found_last: { at_ns: number; shown_ns: number } | null = null;
+
+/** Where a search goes on from: the CPU stands a little after what was found, at the next instruction. */
+export function searched_from(): number {
+  const now = state.past?.now_ns ?? 0;
+  return found_last?.shown_ns === now ? found_last.at_ns : now;
 }
 
 /** It comes into view with room around it; of a window in which it would be less than a pixel, near enough to be seen. */
