@@ -400,6 +400,30 @@ test('requests without an answer are walked through one by one, from within one 
   assert.deepEqual(await places(page.find_unanswered), [400, 700]);
 });
 
+test('of a report that is run on beyond its end only what is new is computed, and all of it in another future', async () => {
+  const track = (at_ns) => ({ kind: 'scans', name: 'scans', exact: false, spans: [{ at_ns, end_ns: at_ns + 5, text: `scan ${at_ns}` }] });
+  state.picture = { from_ns: 0, to_ns: 1e6, tracks: [track(0)] };
+  await begin(moment(1e6));
+  const spans = () => engine.all.filter((line) => line.startsWith('spans'));
+  moved(moment(5e5, 1e6));
+  page.zoom_by(1);
+  await rest();
+  assert.deepEqual(spans(), []);
+  assert.equal(state.spans, state.picture);
+  const later = [999e3, 1000500].flatMap((at_ns) => track(at_ns).spans);
+  engine.answers.spans = { json: { from_ns: 1e6, to_ns: 1001e3, tracks: [{ ...track(0), spans: later }] } };
+  moved(moment(1001e3));
+  page.zoom_by(1);
+  await rest();
+  assert.deepEqual(spans(), ['spans 1000000ns 1001000ns 3000']);
+  assert.deepEqual(state.spans.tracks[0].spans.map((one) => one.at_ns), [0, 1000500]);
+  moved(moment(5e5));
+  page.zoom_by(1);
+  await rest();
+  assert.equal(state.picture, null);
+  assert.equal(spans().at(-1), 'spans 0ns 500000ns 3000');
+});
+
 test('a search for a condition that is paused says nothing of the condition', async () => {
   for (const end of [{ interrupted: true, json: { stopped: 'request' } }, { error: 'no', json: null }, { json: { stopped: 'CPU' }, text: 'STOP' }]) {
     await begin();

@@ -1,7 +1,7 @@
 // What the page does with its session: commands, and the queries about what is seen, asked anew whenever it has moved.
 import { changed, notice, state, the_engine } from './state';
 import { kProtocol } from './protocol';
-import type { Hello, Line, Notification, Outline, Past, PieceOfRun, Reply, Status, Stopped, Stops, Value } from './protocol';
+import type { Hello, Line, Notification, Outline, Past, PieceOfRun, Reply, Spans, Status, Stopped, Stops, Value } from './protocol';
 import { is_one_word, query_of } from './formats';
 import { load_marks } from './marks';
 import { forget_pulses } from './pulses';
@@ -286,8 +286,16 @@ function forget_session(): void {
   show_picture();
 }
 
+let shown_picture: Spans | null = null;
+
+/** Where something else was done in the run of a report, its end is another one. */
+function forget_picture_of_another_end(): void {
+  if (state.picture && state.picture === shown_picture && (state.past?.newest_ns ?? 0) < state.picture.to_ns) state.picture = null;
+}
+
 /** What is known of a run of a report before any of it is computed. */
 function show_picture(): void {
+  shown_picture = state.picture;
   if (!state.picture) return;
   state.spans = state.picture;
   const { from_ns, to_ns } = state.picture;
@@ -419,6 +427,7 @@ export function print(text: string): void {
 function stand_at(now: Past): boolean {
   const is_another = state.past !== null && state.past.station !== now.station;
   state.past = now;
+  forget_picture_of_another_end();
   if (is_another) {
     forget_points();
     void get_acquainted();

@@ -3,7 +3,7 @@ import { also_seen, go_to, look_through, query, Seen } from '../session';
 import { changed, show_pane, state } from '../state';
 import { is_one_word } from '../formats';
 import { moment_word } from '../words';
-import type { Hello, Spans } from '../protocol';
+import type { Hello, Span, Spans, SpanTrack } from '../protocol';
 
 const kElements = 3000;
 const kLeastWindow = 2000;  // ns
@@ -48,8 +48,8 @@ const seen: Seen = new Seen(async () => {
   const length = to_ns - from_ns;
   const first = Math.max(past.oldest_ns, from_ns - length / 4), last = Math.min(past.newest_ns, to_ns + length / 4);
   if (last <= first) return;
-  if (is_in_picture(first, last)) {
-    state.spans = state.picture;
+  if (is_picture_seen(first, last)) {
+    state.spans = await picture_up_to(state.picture!, last);
     return;
   }
   if (state.picture && !covers(state.spans, from_ns, to_ns)) state.spans = state.picture;
@@ -67,8 +67,21 @@ function covers(spans: Spans | null, from_ns: number, to_ns: number): boolean {
 }
 
 /** Whether all of the run of a report is seen, of which there is a picture. */
-function is_in_picture(from_ns: number, to_ns: number): boolean {
-  return state.picture !== null && state.watched.length === 0 && from_ns <= state.picture.from_ns && to_ns === state.picture.to_ns;
+function is_picture_seen(from_ns: number, to_ns: number): boolean {
+  return state.picture !== null && state.watched.length === 0 && from_ns <= state.picture.from_ns && to_ns >= state.picture.to_ns;
+}
+
+/** With what has run since: only that is computed. */
+async function picture_up_to(picture: Spans, to_ns: number): Promise<Spans> {
+  const more = to_ns > picture.to_ns ? await spans_between(picture.to_ns, to_ns, kElements) : null;
+  if (!more) return picture;
+  const name_of = (one: SpanTrack): string => `${one.station ?? ''} ${one.kind} ${one.name}`;
+  const later = new Map(more.tracks.map((one) => [name_of(one), one]));
+  const begun = (one: SpanTrack | undefined): Span[] => (one?.spans ?? []).filter((span) => span.at_ns >= picture.to_ns);
+  const known = picture.tracks.map((one) => ({ ...one, spans: [...one.spans, ...begun(later.get(name_of(one)))] }));
+  const names = new Set(known.map(name_of)), left_out = picture.left_out ?? [];
+  const others = more.tracks.filter((one) => !names.has(name_of(one)) && !left_out.includes(one.kind));
+  return { ...picture, to_ns: more.to_ns, tracks: [...known, ...others] };
 }
 
 const kExchanges = 60e9;  // ns before and after a moment whose exchanges are listed
