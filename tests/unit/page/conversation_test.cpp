@@ -33,6 +33,10 @@ struct Pages {
                  greets_at_news = false;
                  talk->greet(0);
                }
+               if (stops_at_news && got.back().second["event"] == "moved") {
+                 stops_at_news = false;
+                 talk->handle(2, {{"stop", true}, {"run", true}});
+               }
              }});
   }
 
@@ -63,7 +67,7 @@ struct Pages {
   }
 
   Time clock = 0;
-  bool greets_at_news = false;
+  bool greets_at_news = false, stops_at_news = false;
   serial::Simulation simulation;
   std::unique_ptr<History> history{};
   std::vector<std::pair<Client, Json>> got{};  // 0: all
@@ -105,6 +109,18 @@ TEST(Page, SeesTheRunOfAnotherWindowAsOneUntilItEnds) {
   EXPECT_EQ(pages.piece(1, "goes on")["json"]["stopped"], "stop point");
   EXPECT_EQ(pages.event("moved")["by"], "continue 2ms");
   EXPECT_FALSE(pages.event("stopped").is_null());
+}
+
+/// A run that follows the clock carries out messages meanwhile, a stop as well.
+TEST(Page, HearsOfNoRunAnyMoreAfterItWasStopped) {
+  Pages pages(kCounts, true);
+  pages.stops_at_news = true;
+  pages.talk->handle(1, {{"id", 6}, {"command", "continue 20ms"}, {"run", "begins"}});
+  EXPECT_FALSE(pages.event("stopped").is_null());
+  Json last;
+  for (const auto& [client, message] : pages.got)
+    if (message.value("event", "") == "moved") last = message;
+  EXPECT_EQ(last["by"], "continue 20ms");
 }
 
 TEST(Page, BeginsNoSecondRunAndEndsThatOfAnotherWindow) {

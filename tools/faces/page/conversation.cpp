@@ -134,7 +134,7 @@ Reply Conversation::carry_out(const std::string& line, bool of_run) {
     all.moved |= reply.moved;
     all.interrupted = reply.interrupted;
     all.error = std::move(reply.error);
-    if (reply.moved) tell_moved(of_run && goes_on(all) ? "" : one);
+    if (reply.moved) tell_moved(of_run && runner_ && goes_on(all) ? "" : one);
     tell_what_changed(before, one);
     if (all.error || all.interrupted || is_over()) break;
   }
