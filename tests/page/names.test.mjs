@@ -1,15 +1,16 @@
 // What stands in files is text: names, comments and file names that look like markup, turn the direction of text, or are very long.
 import assert from 'node:assert/strict';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { browser, end, kPhone, open, picture, view } from './support.mjs';
+import { browser, end, kPhone, open, picture, rendered, view } from './support.mjs';
 
 const kMarkup = `<img src=x onerror="window.hit=1">`;
 const kTurned = '\u202Eneposs\u202C \u2067abc\u2069';
 const kLong = 'x'.repeat(10000);
 const kRows = 3000;
+const kSource = process.env.SOURCE;
 
 let chrome, folder, plc;
 before(async () => {
@@ -106,4 +107,103 @@ test('a program with thousands of symbols and a thousand networks is drawn as fa
   await page.waitForFunction(() => document.querySelector('.chart .current')?.textContent === '0');
   assert.deepEqual(page.troubles, []);
   await page.close();
+});
+
+const kHostile = ['Q0.0; quit', '01 03; quit', '"; quit', `x"; quit`, `'; quit`, `'a\\'; quit`, `"a\\"; quit`, '#; quit', '#', '#all', '//', 'all'];
+
+/** All commands of the page from now on that are not queries of its own. */
+const sent_by = (page) => {
+  const sent = [];
+  page.on('websocket', (socket) => socket.on('framesent', ({ payload }) => sent.push(JSON.parse(payload).command)));
+  return sent;
+};
+
+/** Whether a line is more than one command: quotations count as none of it. */
+const is_more = (line) => /;|\/\/|["\n]/.test(line.replace(/(?<=^|\s)("[^"\\]*"|'[^']*')/g, 'x'));
+
+/** Rows of a chart are typed where rows are added; the last one is there until it is removed. */
+async function in_chart(page, text, does) {
+  await page.fill('#add-address', text);
+  await page.press('#add-address', 'Enter');
+  await page.waitForFunction((wanted) => [...document.querySelectorAll('.chart .address')].at(-1)?.value === wanted, text);
+  await does(page.locator('.chart tbody tr').last());
+  await page.keyboard.press('Escape');
+  await page.click('#tab-chart');
+  await page.locator('.chart tbody tr').last().locator('[title=Remove]').click();
+}
+
+test('whatever is typed or in a file is one word of a command: no other command comes of it', async () => {
+  const file = path.join(folder, 'written.txt').replaceAll('\\', '/'), program = path.join(folder, 'plain.awl'), table = path.join(folder, 'hostile.txt');
+  const names = [`x; save written.txt`, 'a; quit', 'Level low', 'Fault lamp', 'all', 'not', 'a//b', 'A:B', 'Name=5', "in's", `x"; quit`];
+  writeFileSync(program, 'NETWORK 1\nLD     I0.0\n=      Q0.0\nNETWORK 2\nLDW>   VW100, 5\n=      Q0.1\n');
+  writeFileSync(table, `${names[0]}\tI0.0\na; quit\tQ0.0\nLevel low\tVW100\nFault lamp\tQ0.1\n${names.slice(4).map((one, i) => `${one}\tM${1 + Math.floor(i / 8)}.${i % 8}\n`).join('')}`);
+  const hostile = await view(program, table, '--files');
+  let sent;
+  const page = await open(chrome, hostile.address, { prepare: (one) => { sent = sent_by(one); } });
+  await page.click('#do-scan');
+  await page.click('#tab-chart');
+  const with_menu = ['x; save written.txt', 'all', 'Q0.0; quit', `'a\\'; quit`];
+  const known = [...names.filter((one) => !one.includes('"')), 'fault LAMP'];
+  for (const text of [...known, ...kHostile]) {
+    const is_known = known.includes(text) || text === 'all';
+    await in_chart(page, text, async (row) => {
+      if (is_known) await row.locator('.current:has-text("0")').waitFor().catch(async () => assert.fail(`${text}: ${await row.locator('.current').innerHTML()}`));
+      for (const key of ['Enter', 'Shift+Enter']) {
+        await row.locator('.new-value').fill('0; quit');
+        await row.locator('.new-value').press(key);
+        await page.waitForSelector(is_known ? `.notice.error:has-text("is not a value")` : '.notice.error');
+      }
+      await row.locator('.new-value').fill('');
+      await row.locator('.tools button').first().click();
+      for (let i = 0; i < (with_menu.includes(text) ? 6 : 0); ++i) {
+        await page.click('#tab-chart');
+        await row.locator('[title="Chart, who, why"]').click();
+        await page.locator('[role=menuitem]').nth(i).click({ timeout: i < 5 ? 10000 : 300 }).catch(() => page.keyboard.press('Escape'));  // of words there are fewer
+        await rendered(page);
+      }
+    });
+  }
+  await page.click('#tab-chart');
+  assert.equal(await page.locator('.chart tbody tr').count(), 0);
+  const rows = kHostile.map((one) => `VB200\tSigned\t\t${one}\n${one}\tSigned\t\t1\n`).join('');
+  await page.evaluate((text) => {
+    const clipboardData = new DataTransfer();
+    clipboardData.setData('text', text);
+    document.querySelector('#add-address').dispatchEvent(new ClipboardEvent('paste', { clipboardData, bubbles: true, cancelable: true }));
+  }, rows);
+  await page.click('text=Write all');
+  await page.waitForSelector('.notice.error');
+  for (const text of kHostile) {
+    await page.click('#tab-line');
+    await page.fill('#send-text', text);
+    await page.click('#do-send');
+    await page.fill('#condition', text);
+    await page.press('#condition', 'Enter');
+    await page.fill('#find', text);
+    await page.press('#find', 'Enter');
+    await page.fill('#moment', text);
+    await page.press('#moment', 'Enter');
+    await page.click('#tab-causes');
+    for (const button of ['ask-why', 'ask-why-not', 'ask-effect', 'ask-who']) {
+      await page.fill('.ask input', text);
+      await page.click(`#${button}`);
+      await rendered(page);
+    }
+  }
+  for (const name of ['Fault lamp', 'a; quit', 'x; save written.txt'])
+    for (const [button, question] of [['ask-why', 'Why is'], ['ask-why-not', 'What keeps'], ['ask-effect', 'What came of the last change of'], ['ask-who', 'Who wrote']]) {
+      await page.fill('.ask input', name);
+      await page.click(`#${button}`);
+      await page.waitForSelector(`.trail li:first-child .question:has-text("${question} ${name}")`);
+    }
+  await picture(page, 'names_hostile');
+  const scan = await page.textContent('.scan-here');
+  await page.click('#do-scan');
+  await page.waitForFunction((before) => document.querySelector('.scan-here').textContent !== before, scan);
+  assert.deepEqual(sent.filter((line) => is_more(line) || !/^[a-z]/.test(line)), []);
+  assert.equal(hostile.server.exitCode, null);
+  assert.equal(existsSync(path.join(kSource, 'written.txt')) || existsSync(file), false);
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+  await end(hostile.server);
 });

@@ -6,7 +6,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { test } from 'node:test';
 
-const kParts = ['state', 'words', 'formats', 'exchanges', 'files', 'status_charts', 'timeline/draw', 'timeline/scale', 'timeline/measure'];
+const kParts = ['state', 'words', 'commands', 'formats', 'exchanges', 'files', 'status_charts', 'timeline/draw', 'timeline/scale', 'timeline/measure'];
 const source = kParts.map((one) => `export * from './${one}';`).join('\n');
 const bundle = execFileSync('esbuild', ['--bundle', '--format=esm', '--platform=neutral'],
   { input: source, cwd: path.join(process.env.SOURCE, 'tools/faces/page/src'), encoding: 'utf8' });
@@ -127,9 +127,28 @@ test('listing and ladder show a value in the format that the chart has for it', 
   parts.state.chart = [];
 });
 
-test('only one word or a quoted symbol is asked for', () => {
-  for (const good of ['VW100', 'Pump', '"Level low"', '*VD4']) assert.ok(parts.is_one_word(good), good);
-  for (const bad of ['', 'VW1 VW2', 'VW1; quit', '"open', 'a"b', '//', '/x']) assert.ok(!parts.is_one_word(bad), bad);
+const symbols = (...names) => ({ symbols: names.map((name, i) => ({ name, address: `M0.${i}`, comment: '' })) });
+
+test('only one word or a symbol is asked for, a symbol in quotation marks', () => {
+  for (const good of ['VW100', 'Pump', '"Level low"', '"a; quit"', '*VD4', '#level', "in's", '"a":real']) assert.equal(parts.word_of(good), good);
+  for (const bad of ['', '#', 'VW1 VW2', 'VW1; quit', '"open', 'a"b', '//', '/x', 'VB0//x', "'", "'VB0", '"a" "b"', '"a\\"', 'VB0\nVB1', 'VB0\u0001']) assert.equal(parts.word_of(bad), undefined, bad);
+  parts.state.outline = symbols('Level low', 'a; quit', 'all', 'x"; quit', 'y\\', 'Q1.0');
+  const asked = (...names) => names.map(parts.word_of);
+  assert.deepEqual(asked(' level LOW ', 'a; quit', 'ALL', 'Q1.0', 'b; quit'), ['"Level low"', '"a; quit"', '"all"', 'Q1.0', undefined]);
+  assert.deepEqual(asked('x"; quit', 'y\\'), ['M0.3', 'M0.4'], 'no quotation could hold the name');
+  assert.equal(parts.query_of('Level low', 'real'), '"Level low":real');
+  parts.state.outline = null;
+});
+
+test('a command is one command, whatever is typed into it', () => {
+  const { line_of, words, value } = parts, is = (text) => words(text, 'a condition');
+  assert.equal(line_of`break ${is(' "a; b" > 5 and VW0 = 2 ')}`, 'break "a; b" > 5 and VW0 = 2');
+  assert.equal(line_of`send ${is("'a;b\\';c' crc")}`, "send 'a;b\\';c' crc");
+  for (const bad of ['VW0 > 5; quit', '; quit', 'VW0 // x', '// x', 'VW0 # x', '#', '"open', "it's 'open", "'a'; quit", "x'; quit", "'a\\'; quit", 'VW0\nquit'])
+    assert.match(line_of`break ${is(bad)}`.why ?? '', /is not a condition$/, bad);
+  assert.deepEqual(['- 5', '16#FF', "'a b'", '1;quit', '1\u0000', ''].map((one) => String(line_of`set ${'VW0'}=${value(one)}`.why ?? line_of`set ${'VW0'}=${value(one)}`).slice(0, 15)),
+    ['set VW0=-5', 'set VW0=16#FF', "''a b'' is not a", "'1;quit' is not", "'1\u0000' is not a value", "'' is not a val"].map((one) => one.slice(0, 15)));
+  assert.deepEqual({ ...line_of`why not ${'VW0; quit'}` }, { kind: 'why', why: "'VW0; quit' is not an address or a symbol; write for example Q0.1, VW100 or T37" });
 });
 
 const frame = (text, at_ns, end_ns, more) => ({ text, at_ns, end_ns, ...more });

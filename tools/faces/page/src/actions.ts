@@ -1,5 +1,6 @@
 // Everything that one can do, once: buttons, keys and the help read this table.
 import { changed, notice, show_pane, state } from './state';
+import { line_of, type Command } from './commands';
 import { command, go_to, go_to_named, move, pause } from './session';
 import { run } from './running';
 import { ask_why } from './causes';
@@ -31,8 +32,8 @@ function toggle_run(): void {
   else void run();
 }
 
-function step(words: string): () => void {
-  return () => void move(words);
+function step(line: Command): () => void {
+  return () => void move(line);
 }
 
 /** To the next interrupt, or to the one before; if there is none, it stays where it was. */
@@ -41,10 +42,10 @@ async function step_to_interrupt(direction: 1 | -1): Promise<void> {
     notice('The program has no interrupt routine');
     return;
   }
-  const reply = await move<Stopped>(direction > 0 ? 'interrupt' : 'rinterrupt');
+  const reply = await move<Stopped>(direction > 0 ? line_of`interrupt` : line_of`rinterrupt`);
   const found = reply.error !== undefined || (direction > 0 ? reply.json?.stopped !== 'limit' : state.past?.now_ns !== state.past?.oldest_ns);
   if (found) return;
-  await move('back');
+  await move(line_of`back`);
   notice(direction > 0 ? 'No interrupt within 10 s after this moment' : 'No interrupt before this moment');
 }
 
@@ -113,25 +114,25 @@ function pane_actions(): Action[] {
 
 export const kActions: Action[] = [
   { id: 'run', group: 'Run', title: 'Run or pause', keys: [' ', 'F5'], does: toggle_run },
-  { id: 'mode-run', group: 'Run', title: 'Switch the CPU to RUN', keys: ['Shift+R'], does: () => void command('mode run') },
-  { id: 'mode-stop', group: 'Run', title: 'Switch the CPU to STOP', keys: ['Shift+P'], does: () => void command('mode stop') },
-  { id: 'restart', group: 'Run', title: 'Power up again', keys: ['Shift+U'], does: () => void move('restart') },
+  { id: 'mode-run', group: 'Run', title: 'Switch the CPU to RUN', keys: ['Shift+R'], does: () => void command(line_of`mode run`) },
+  { id: 'mode-stop', group: 'Run', title: 'Switch the CPU to STOP', keys: ['Shift+P'], does: () => void command(line_of`mode stop`) },
+  { id: 'restart', group: 'Run', title: 'Power up again', keys: ['Shift+U'], does: () => void move(line_of`restart`) },
 
-  { id: 'step', group: 'Steps', title: 'Instruction', keys: ['.', 'F11'], does: step('step') },
-  { id: 'rstep', group: 'Steps', title: 'Back by an instruction', keys: [',', 'Shift+F11'], does: step('rstep') },
-  { id: 'over', group: 'Steps', title: 'Instruction, over a CALL', keys: ['o', 'F10'], does: step('over') },
-  { id: 'rover', group: 'Steps', title: 'Back over a CALL', keys: ['Shift+O', 'Shift+F10'], does: step('rover') },
-  { id: 'network', group: 'Steps', title: 'Network', keys: ['n'], does: step('network') },
-  { id: 'rnetwork', group: 'Steps', title: 'Back by a network', keys: ['Shift+N'], does: step('rnetwork') },
-  { id: 'scan', group: 'Steps', title: 'Scan', keys: ['s'], does: step('scan') },
-  { id: 'rscan', group: 'Steps', title: 'Back by a scan', keys: ['Shift+S'], does: step('rscan') },
+  { id: 'step', group: 'Steps', title: 'Instruction', keys: ['.', 'F11'], does: step(line_of`step`) },
+  { id: 'rstep', group: 'Steps', title: 'Back by an instruction', keys: [',', 'Shift+F11'], does: step(line_of`rstep`) },
+  { id: 'over', group: 'Steps', title: 'Instruction, over a CALL', keys: ['o', 'F10'], does: step(line_of`over`) },
+  { id: 'rover', group: 'Steps', title: 'Back over a CALL', keys: ['Shift+O', 'Shift+F10'], does: step(line_of`rover`) },
+  { id: 'network', group: 'Steps', title: 'Network', keys: ['n'], does: step(line_of`network`) },
+  { id: 'rnetwork', group: 'Steps', title: 'Back by a network', keys: ['Shift+N'], does: step(line_of`rnetwork`) },
+  { id: 'scan', group: 'Steps', title: 'Scan', keys: ['s'], does: step(line_of`scan`) },
+  { id: 'rscan', group: 'Steps', title: 'Back by a scan', keys: ['Shift+S'], does: step(line_of`rscan`) },
   { id: 'interrupt', group: 'Steps', title: 'Interrupt', keys: ['i'], does: () => void step_to_interrupt(1) },
   { id: 'rinterrupt', group: 'Steps', title: 'Back to the last interrupt', keys: ['Shift+I'], does: () => void step_to_interrupt(-1) },
 
-  { id: 'start', group: 'Go to', title: 'Start of the past', keys: ['Home'], does: () => void move('at start') },
-  { id: 'end', group: 'Go to', title: 'Newest moment', keys: ['End'], does: () => void move('at end') },
+  { id: 'start', group: 'Go to', title: 'Start of the past', keys: ['Home'], does: () => void move(line_of`at start`) },
+  { id: 'end', group: 'Go to', title: 'Newest moment', keys: ['End'], does: () => void move(line_of`at end`) },
   { id: 'moment', group: 'Go to', title: 'A moment', keys: ['g'], does: () => focus_field('#moment') },
-  { id: 'rcontinue', group: 'Go to', title: 'Back to the last breakpoint or answer', keys: ['Shift+B'], does: step('rcontinue') },
+  { id: 'rcontinue', group: 'Go to', title: 'Back to the last breakpoint or answer', keys: ['Shift+B'], does: step(line_of`rcontinue`) },
   { id: 'why', group: 'Go to', title: 'Why has it come here?', keys: ['w'], does: () => void ask_why() },
   { id: 'link', group: 'Go to', title: 'Copy a link to this moment', keys: ['l'], does: () => void copy_link() },
 

@@ -1,5 +1,6 @@
 // Why and who: each answer is a step of a trail that one walks back to the cause.
 import { changed, show_pane, state } from './state';
+import { line_of, type Command } from './commands';
 import { command, go_to, look_at, query, Seen } from './session';
 import { bring_into_view } from './timeline/view';
 import type { Exchange } from './exchanges';
@@ -8,7 +9,7 @@ import type { Cause, Done, Past, Value } from './protocol';
 const kMostSteps = 200;
 
 /** The answer comes to the front unless the reader has chosen another pane meanwhile. */
-async function ask(question: string, line: string): Promise<void> {
+async function ask(question: string, line: Command): Promise<void> {
   const at_ns = state.past?.now_ns ?? 0, { pane, side } = state;
   const reply = await command<Cause>(line);
   if (reply.error !== undefined) return;
@@ -23,23 +24,23 @@ function named(address: string): string {
 }
 
 export function ask_why(address = ''): Promise<void> {
-  return ask(address ? `Why is ${named(address)} so?` : 'Why has it come here?', `why ${address}`.trim());
+  return ask(address ? `Why is ${named(address)} so?` : 'Why has it come here?', address ? line_of`why ${address}` : line_of`why`);
 }
 
 /** What keeps a bit off, or on, and the fewest contacts that would have to change. */
 export async function ask_why_not(address: string): Promise<void> {
-  const reply = await command<{ values: Value[] }>(`values ${address}`);
+  const reply = await command<{ values: Value[] }>(line_of`values ${address}`);
   const on = Number(reply.json?.values[0]?.number ?? 0) === 1;
-  await ask(`What keeps ${named(address)} ${on ? 'on' : 'off'}?`, `why not ${on ? 'not ' : ''}${address}`);
+  await ask(`What keeps ${named(address)} ${on ? 'on' : 'off'}?`, on ? line_of`why not not ${address}` : line_of`why not ${address}`);
 }
 
 export function ask_who(address: string): Promise<void> {
-  return ask(`Who wrote ${named(address)} last?`, `who ${address}`);
+  return ask(`Who wrote ${named(address)} last?`, line_of`who ${address}`);
 }
 
 /** What the last change of an address made otherwise, and until when. */
 export function ask_effect(address: string): Promise<void> {
-  return ask(`What came of the last change of ${named(address)}?`, `effect ${address}`);
+  return ask(`What came of the last change of ${named(address)}?`, line_of`effect ${address}`);
 }
 
 const kShownBytes = 12;
@@ -66,19 +67,19 @@ export async function go_to_verdict(one: Exchange): Promise<void> {
 export async function ask_why_unanswered(one: Exchange): Promise<void> {
   await go_to_verdict(one);
   bring_into_view({ at_ns: one.at_ns, end_ns: Math.max(one.end_ns, state.past?.now_ns ?? 0) });
-  await ask(`Why has ${in_short(one.request)} no answer?`, 'why');
+  await ask(`Why has ${in_short(one.request)} no answer?`, line_of`why`);
 }
 
 /** What an answer of a PLC has waited for, as it is known at its end. */
 export async function ask_why_latency(request: string, answer_end_ns: number, station = ''): Promise<void> {
   await look_from(station);
   await go_to(answer_end_ns);
-  await ask(`What did the answer to ${in_short(request)} wait for?`, 'why latency');
+  await ask(`What did the answer to ${in_short(request)} wait for?`, line_of`why latency`);
 }
 
 const kDone = 200;  // actions that are listed
 const done = new Seen(async () => {
-  const reply = await query<Done>(`actions ${kDone}`);
+  const reply = await query<Done>(line_of`actions ${kDone}`);
   state.done = reply.json ?? null;
 });
 let done_at: Past | null = null;

@@ -1,4 +1,5 @@
 // Values in the formats of a status chart, by the names that Micro/WIN gives them.
+import { word_of } from './commands';
 import { state, type ChartRow } from './state';
 import type { Value } from './protocol';
 
@@ -79,12 +80,6 @@ export function operand_text(address: string, value: number | boolean, said: str
 
 /** The address as a query takes it: a double word in floating point is asked for as one. */
 export function query_of(address: string, format: Format): string {
-  const word = address.trim();
-  return format === 'real' && !word.includes(':') && !word.startsWith('"') ? `${word}:real` : word;
-}
-
-/** What a query can hold: one word, or a symbol in quotation marks; what begins a comment would end it. */
-export function is_one_word(address: string): boolean {
-  const word = address.trim();
-  return /^("[^"]+"|[^\s";/][^\s";]*)$/.test(word) && word !== '#' && (word.startsWith('"') || !word.includes('//'));
+  const word = word_of(address) ?? address.trim(), has_type = /:\w+$/.test(word);
+  return format === 'real' && !has_type ? `${word}:real` : word;
 }

@@ -1,6 +1,7 @@
 // Two futures: the one that has been is kept from a moment on, something is changed there, and what comes then stands above it,
 // with what differs marked.
 import { changed, notice, state } from './state';
+import { line_of } from './commands';
 import { also_seen, move_on, run_to, Seen, take_over } from './session';
 import { first_after } from './timeline/scale';
 import { spans_between } from './timeline/view';
@@ -26,7 +27,7 @@ function all_known(): string[] {
 /** Runs from the newest moment on to that one. Returns whether nothing else is wanted meanwhile. */
 async function run_from_newest(until_ns: number, is_wanted: () => boolean): Promise<boolean> {
   if ((state.past?.newest_ns ?? 0) >= until_ns) return is_wanted();
-  if (state.past?.in_the_past) await move_on('at end');
+  if (state.past?.in_the_past) await move_on(line_of`at end`);
   if (is_wanted()) await run_to(until_ns, is_wanted);
   return is_wanted();
 }
@@ -54,7 +55,7 @@ async function keep_future(is_wanted: () => boolean): Promise<void> {
   if (!await run_from_newest(end_of_first(at_ns, past.newest_ns), is_wanted)) return;
   const spans = await spans_between(at_ns, Math.max(at_ns + 1, state.past!.newest_ns), kElements, all_known());
   if (!is_wanted()) return;
-  await move_on(`at ${moment_word(at_ns)}`);
+  await move_on(line_of`at ${moment_word(at_ns)}`);
   if (!is_wanted() || !spans) return;
   state.first_future = { at_ns, until_ns: spans.to_ns, spans };
   state.futures_part_ns = null;

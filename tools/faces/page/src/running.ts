@@ -2,6 +2,7 @@
 import type { PieceOfRun, Stopped } from './protocol';
 import { changed, state, the_engine } from './state';
 import { switch_due, time_to_edge_ns } from './pulses';
+import { line_of } from './commands';
 import { begin_to_move, print, run_piece_of, say_why_stopped, take_over } from './session';
 
 const kPiece = 50;         // ms of the reader's time that a piece takes
@@ -25,7 +26,7 @@ function piece_of_run(): PieceOfRun {
 /** Runs that long without an edge of a pulse train. Returns whether the run goes on. */
 async function run_on(length_ns: number): Promise<boolean> {
   const is_long = state.pace === 0 && the_engine().can_be_stopped;
-  const reply = await run_piece_of<Stopped>(`continue ${Math.max(1, Math.round(length_ns))}ns`, is_long, piece_of_run());
+  const reply = await run_piece_of<Stopped>(line_of`continue ${Math.max(1, Math.round(length_ns))}ns`, is_long, piece_of_run());
   if (reply.gave_way) return true;
   if (reply.error !== undefined || reply.interrupted) return false;
   if (reply.json?.stopped !== 'limit') print(reply.text);
@@ -59,7 +60,7 @@ async function run_paced(goes_on: () => boolean): Promise<void> {
 /** A run that follows the clock carries out commands meanwhile. */
 async function run_live(goes_on: () => boolean): Promise<void> {
   while (goes_on()) {
-    const reply = await run_piece_of<Stopped>(`continue ${kWithoutEnd}`, false, piece_of_run());
+    const reply = await run_piece_of<Stopped>(line_of`continue ${kWithoutEnd}`, false, piece_of_run());
     if (reply.interrupted || reply.error !== undefined) return;
     print(reply.text);
     say_why_stopped(reply);

@@ -2,7 +2,8 @@
 import { changed, notice, state, the_engine } from './state';
 import { kProtocol } from './protocol';
 import type { Hello, Line, Notification, Outline, Past, PieceOfRun, Reply, Spans, Status, Stopped, Stops, Value } from './protocol';
-import { is_one_word, query_of } from './formats';
+import { line_of, Refused, word_of, words, type Command } from './commands';
+import { query_of } from './formats';
 import { load_marks } from './marks';
 import { forget_pulses } from './pulses';
 import { duration_text, moment_of_link, moment_text, moment_word, written_in_link } from './words';
@@ -71,13 +72,21 @@ async function behind<Json>(asked: Promise<Reply<Json>>, before: object[]): Prom
 }
 
 /** Asks what waits no longer than that for what takes long. */
-function ask_in_turn<Json>(line: string): Promise<Reply<Json>> {
+function ask_in_turn<Json>(line: Exclude<Command, Refused>): Promise<Reply<Json>> {
   const before = [...under_way], asked = the_engine().command<Json>(line);
   return before.length === 0 ? asked : behind(asked, before);
 }
 
+/** A command that has not been one is not sent. */
+const without_command = <Json>({ why }: Refused): Reply<Json> => ({ id: 0, text: '', json: null, moved: false, error: why });
+
+function refused<Json>(line: Refused): Reply<Json> {
+  return heard(line.kind, without_command<Json>(line));
+}
+
 /** Carries out a command: during a piece of a run at once, and after a stop that has come before it. */
-export async function command<Json = unknown>(line: string): Promise<Reply<Json>> {
+export async function command<Json = unknown>(line: Command): Promise<Reply<Json>> {
+  if (line instanceof Refused) return refused<Json>(line);
   let reply: Reply<Json>;
   do {
     interrupt_piece();
@@ -96,7 +105,8 @@ function interrupt_piece(): void {
 }
 
 /** Carries out a piece of a run. One that has only given way to a command counts as one whose length has passed. */
-export async function run_piece_of<Json = unknown>(line: string, is_long: boolean, run: PieceOfRun): Promise<Reply<Json> & { gave_way?: boolean }> {
+export async function run_piece_of<Json = unknown>(line: Command, is_long: boolean, run: PieceOfRun): Promise<Reply<Json> & { gave_way?: boolean }> {
+  if (line instanceof Refused) return refused<Json>(line);
   in_piece = is_long;
   gives_way = false;
   const reply = await the_engine().command<Json>(line, run), gave_way = gives_way && reply.interrupted === true;
@@ -105,7 +115,8 @@ export async function run_piece_of<Json = unknown>(line: string, is_long: boolea
 }
 
 /** The same without a word: queries of what may not be there. One that was dropped because a run was stopped is asked again. */
-export async function query<Json>(line: string): Promise<Reply<Json>> {
+export async function query<Json>(line: Command): Promise<Reply<Json>> {
+  if (line instanceof Refused) return without_command(line);
   for (;;) {
     const reply = await the_engine().command<Json>(line);
     if (!reply.interrupted || reply.json !== null) return reply;
@@ -113,7 +124,8 @@ export async function query<Json>(line: string): Promise<Reply<Json>> {
 }
 
 /** A query of a search, which may take long: what is wanted next ends it. One that has ended for a command is asked again. */
-export async function look_through<Json>(line: string, is_wanted: () => boolean): Promise<Reply<Json>> {
+export async function look_through<Json>(line: Command, is_wanted: () => boolean): Promise<Reply<Json>> {
+  if (line instanceof Refused) return without_command(line);
   ++searches;
   let reply: Reply<Json>;
   do reply = await taking(ask_in_turn<Json>(line)); while (reply.interrupted && is_wanted());
@@ -137,7 +149,7 @@ export function fetch_chunk_of(line: number): Promise<void> {
 async function fetch_chunk(chunk: number, all_lines: number): Promise<void> {
   const from = Math.max(1, chunk * kChunk), to = Math.min(all_lines, (chunk + 1) * kChunk - 1), of_program = chunks;
   if (from > to) return;
-  const reply = await query<{ text: Line[] }>(`listing ${from} ${to}`);
+  const reply = await query<{ text: Line[] }>(line_of`listing ${from} ${to}`);
   if (of_program !== chunks) return;
   if (reply.json) for (const one of reply.json.text) state.lines.set(one.line, one);
   else chunks.delete(chunk);
@@ -149,7 +161,7 @@ async function fetch_lines(): Promise<void> {
 
 async function fetch_status(): Promise<void> {
   if (!state.outline) return;
-  const reply = await query<Status>(`status ${seen_lines[0]} ${Math.min(seen_lines[1], state.outline.lines)}`);
+  const reply = await query<Status>(line_of`status ${seen_lines[0]} ${Math.min(seen_lines[1], state.outline.lines)}`);
   if (reply.json) state.executions = new Map(reply.json.lines.map((one) => [one.op, one]));
 }
 
@@ -168,7 +180,7 @@ export function see_lines(first: number, last: number): void {
 function asked_addresses(): string[] {
   const all = state.chart.map((row) => query_of(row.address, row.format))
     .concat(state.inputs.map((row) => row.address), state.outputs);
-  return [...new Set(all.filter(is_one_word))];
+  return [...new Set(all.filter((one) => word_of(one) !== undefined))];
 }
 
 const kSamples = 300;
@@ -191,7 +203,7 @@ function by_name(values: Value[]): Map<string, Value> {
 async function fetch_values(): Promise<void> {
   const asked = asked_addresses();
   if (asked.length === 0) return;
-  const reply = await query<{ at_ns: number; values: Value[] }>(`values ${asked.join(' ')}`);
+  const reply = await query<{ at_ns: number; values: Value[] }>(line_of`values ${asked}`);
   if (!reply.json) return;
   state.values = by_name(reply.json.values);
   for (const name of state.samples.keys()) if (!state.values.has(name)) state.samples.delete(name);
@@ -205,7 +217,7 @@ export function see_values(): void {
 
 /** The breakpoints and watches as the session has them. */
 const stops = new Seen(async () => {
-  const reply = await query<Stops>('break');
+  const reply = await query<Stops>(line_of`break`);
   if (!reply.json) return;
   state.breakpoints = new Map();
   for (const stop of reply.json.stops)
@@ -214,7 +226,7 @@ const stops = new Seen(async () => {
 
 /** Mode and errors, which commands change without going elsewhere. */
 const past = new Seen(async () => {
-  const reply = await query<Past>('past');
+  const reply = await query<Past>(line_of`past`);
   if (reply.json) stand_at(reply.json);
 });
 
@@ -240,14 +252,14 @@ function forget_program(): void {
 /** The program's outline: first of all, and whenever another PLC is looked at. */
 async function get_acquainted(): Promise<void> {
   forget_program();
-  const of_program = chunks, reply = await query<Outline>('listing');
+  const of_program = chunks, reply = await query<Outline>(line_of`listing`);
   if (of_program !== chunks) return;
   if (reply.json) {
     forget_program();  // what was in view meanwhile was asked for by the outline of the one before
     state.outline = reply.json;
     propose_points(reply.json);
   }
-  state.has_ladder = (await query('help ladder')).error === undefined;
+  state.has_ladder = (await query(line_of`help ladder`)).error === undefined;
   lines.refresh();
   stops.refresh();
   refresh_all();
@@ -452,8 +464,8 @@ function came_to(now: Past): void {
 
 /** Looks at another PLC of a system. */
 export async function look_at(station: string): Promise<void> {
-  await command(`station ${station}`);
-  const reply = await query<Past>('past');
+  await command(line_of`station ${words(station, 'a name that a command can have: give the station another one')}`);
+  const reply = await query<Past>(line_of`past`);
   if (reply.json) came_to(reply.json);
 }
 
@@ -510,18 +522,19 @@ export function pause(): void {
 /** Ends a run: then it is known how far it has come. */
 async function run_ended(): Promise<void> {
   pause();
-  const reply = await query<Past>('past');
+  const reply = await query<Past>(line_of`past`);
   if (reply.json) stand_at(reply.json);
 }
 
 /** Carries out something that moves the session, which ends a run; what it says is shown where it stops. */
-export async function move<Json = unknown>(line: string): Promise<Reply<Json>> {
+export async function move<Json = unknown>(line: Command): Promise<Reply<Json>> {
   take_over();
   return move_on<Json>(line);
 }
 
 /** The same as a step of something that goes on after it. */
-export async function move_on<Json = unknown>(line: string): Promise<Reply<Json>> {
+export async function move_on<Json = unknown>(line: Command): Promise<Reply<Json>> {
+  if (line instanceof Refused) return refused<Json>(line);
   if (state.own_run || state.others_run) pause();
   const is_last = begin_to_move(), pauses_before = pauses;
   ++moving;
@@ -547,7 +560,7 @@ export async function run_to(end_ns: number, is_wanted: () => boolean): Promise<
   let run: Reply<Stopped> | undefined;
   for (let part = the_engine().can_be_stopped ? Infinity : kFirstPart; left() > 0;) {
     const length = Math.min(part, left()), began = performance.now();
-    run = await move_on<Stopped>(`continue ${moment_word(length)}`);
+    run = await move_on<Stopped>(line_of`continue ${moment_word(length)}`);
     if (pauses !== pauses_before) return { ...run, interrupted: true };
     const goes_on = run.json?.stopped === 'answer' || (length === part && run.json?.stopped === 'limit');
     if (!is_wanted() || run.interrupted || !goes_on) return run;
@@ -562,10 +575,10 @@ export async function go_to(ns: number): Promise<boolean> {
   if (state.own_run || state.others_run) await run_ended();
   if (!is_wanted()) return false;
   if (wanted <= (state.past?.newest_ns ?? 0)) {
-    const went = await move_on(`at ${moment_word(wanted)}`);
+    const went = await move_on(line_of`at ${moment_word(wanted)}`);
     return is_wanted() && !went.interrupted;
   }
-  if (state.past?.in_the_past && (await move_on('at end')).interrupted) return false;
+  if (state.past?.in_the_past && (await move_on(line_of`at end`)).interrupted) return false;
   return is_wanted() && !(await run_to(wanted, is_wanted))?.interrupted && is_wanted();
 }
 

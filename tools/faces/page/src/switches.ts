@@ -1,4 +1,5 @@
 // Inputs as switches: what is put at a terminal, and what the program has read there.
+import { line_of } from './commands';
 import { command } from './session';
 import { changed, state } from './state';
 
@@ -16,5 +17,5 @@ export function terminal_level(address: string): number {
 export async function switch_to(address: string, level: number): Promise<void> {
   if (state.past) state.switched.set(address, { level, at_ns: state.past.now_ns, scan: state.past.scan });
   changed();
-  await command(state.values.get(address)?.forced ? `force ${address}=${level}` : `input ${address}=${level}`);
+  await command(state.values.get(address)?.forced ? line_of`force ${address}=${level}` : line_of`input ${address}=${level}`);
 }

@@ -1,6 +1,7 @@
 // The trail: what was asked, what the answer is, and the way on from there.
 import { h, type Child, type Part } from '../dom';
 import { ask_effect, ask_who, ask_why, ask_why_not, forget_trail, see_done } from '../causes';
+import { line_of } from '../commands';
 import { go_to, move } from '../session';
 import { switch_to, terminal_level } from '../switches';
 import { rows_shown, state, type TrailStep } from '../state';
@@ -86,7 +87,7 @@ export function causes_pane(): Part {
   return h('div', { class: 'causes-pane' },
     h('div', { class: 'chart-tools' },
       h('button', { onclick: () => void ask_why(), title: 'What decided that it has come here (w)' }, 'Why here?'),
-      h('button', { onclick: () => void move('rwhy'), title: 'Go to the instruction that decided it' }, 'Go to what decided'),
+      h('button', { onclick: () => void move(line_of`rwhy`), title: 'Go to the instruction that decided it' }, 'Go to what decided'),
       h('button', { onclick: forget_trail, disabled: state.trail.length === 0 }, 'Clear')),
     h('form', { class: 'ask', onsubmit: (event: Event) => {
       event.preventDefault();

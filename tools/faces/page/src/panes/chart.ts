@@ -1,7 +1,8 @@
 // The status chart, with switches of the inputs and lamps of the outputs above it.
 import { h, type Child, type Part } from '../dom';
+import { line_of, value, word_of } from '../commands';
 import { command, see_values } from '../session';
-import { is_one_word, kFormats, query_of, text_in, type Format } from '../formats';
+import { kFormats, query_of, text_in, type Format } from '../formats';
 import { is_pulsing, kMostHertz, set_hertz, toggle_pulses } from '../pulses';
 import { changed, notice, state, type ChartRow, type PointRow, type SwitchKind } from '../state';
 import { level_of, switch_to, terminal_level } from '../switches';
@@ -51,21 +52,21 @@ async function write_all(): Promise<void> {
 }
 
 async function write(row: ChartRow, how: 'set' | 'force'): Promise<void> {
-  const value = row.new_value.trim();
-  if (value === '') {
+  const typed = row.new_value.trim();
+  if (typed === '') {
     notice(`Type a new value for ${row.address} first`);
     return;
   }
-  const reply = await command(`${how} ${row.address}=${value.replace(/\s/g, '')}`);
-  if (reply.error === undefined && row.new_value.trim() === value) row.new_value = '';
+  const reply = await command(how === 'set' ? line_of`set ${row.address}=${value(typed)}` : line_of`force ${row.address}=${value(typed)}`);
+  if (reply.error === undefined && row.new_value.trim() === typed) row.new_value = '';
   changed();
 }
 
 async function toggle_force(row: ChartRow): Promise<void> {
-  const value = value_of(row);
-  if (value?.forced) await command(`unforce ${row.address}`);
+  const now = value_of(row);
+  if (now?.forced) await command(line_of`unforce ${row.address}`);
   else if (row.new_value.trim() !== '') await write(row, 'force');
-  else if (value && value.error === undefined) await command(`force ${row.address}=${value.number}`);
+  else if (now && now.error === undefined) await command(line_of`force ${row.address}=${now.number}`);
 }
 
 const kSparkWidth = 90, kSparkHeight = 18;
@@ -101,7 +102,7 @@ async function turn(address: string, number: number): Promise<void> {
   while (turned) {
     const next: { address: string; number: number } = turned;
     turned = null;
-    await command(`set ${next.address}=${next.number}`);
+    await command(line_of`set ${next.address}=${next.number}`);
   }
   turning = false;
 }
@@ -122,7 +123,7 @@ function chart_row(row: ChartRow, i: number): Part {
   const value = value_of(row);
   const bit = value?.type === 'bit';
   const forced = value?.forced === true;
-  const wrong = value?.error ?? (row.address.trim() !== '' && !is_one_word(row.address) ? 'an address or a symbol, one a row' : undefined);
+  const wrong = value?.error ?? (row.address.trim() !== '' && word_of(row.address) === undefined ? 'an address or a symbol, one a row' : undefined);
   return h('tr', { class: forced ? 'forced' : '', key: i },
     h('td', {}, h('input', { class: 'address', 'aria-label': 'Address', value: row.address, spellcheck: 'false', autocomplete: 'off', placeholder: 'Address or symbol',
       title: value?.symbol ? `${value.symbol} (${value.address})` : '',
@@ -254,7 +255,7 @@ export function chart_pane(): Part {
     points('Outputs', state.outputs.map(output_lamp)),
     h('div', { class: 'chart-tools' },
       h('button', { onclick: () => void write_all(), title: 'Write all new values' }, 'Write all'),
-      h('button', { onclick: () => void command('unforce all'), disabled: !forced, title: 'Release everything that is forced' }, 'Unforce all'),
+      h('button', { onclick: () => void command(line_of`unforce all`), disabled: !forced, title: 'Release everything that is forced' }, 'Unforce all'),
       h('button', { onclick: copy_chart, disabled: state.chart.length === 0, title: 'Copy the chart as Micro/WIN has it' }, 'Copy')),
     h('table', { class: 'chart' },
       h('thead', {}, h('tr', {}, ['Address', 'Format', 'Current value', 'New value', '', 'Trend'].map((name) => h('th', {}, name)))),

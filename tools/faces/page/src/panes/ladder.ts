@@ -1,5 +1,6 @@
 // The ladder: networks as the session draws them, on a grid of characters, with power flow at the moment where it stands. Only the
 // networks in view are asked for and made.
+import { line_of } from '../commands';
 import { h, is_press, type Child, type Part } from '../dom';
 import { also_seen, fetch_chunk_of, query, Seen } from '../session';
 import { in_formats } from '../formats';
@@ -38,7 +39,7 @@ async function fetch_network(place: Place): Promise<void> {
   const parts: LadderNetwork[] = [];
   await fetch_chunk_of(place.line);
   for (let line: number | undefined = place.line; line !== undefined && parts.length < kMostParts;) {
-    const reply: Reply<LadderNetwork> = await query<LadderNetwork>(`ladder ${line}`);
+    const reply: Reply<LadderNetwork> = await query<LadderNetwork>(line_of`ladder ${line}`);
     if (!reply.json) {
       wrong = reply.error ?? '';
       return;

@@ -1,5 +1,6 @@
 // The line: a request to send, and what was asked and answered.
 import { h, type Part } from '../dom';
+import { line_of, words } from '../commands';
 import { command, go_to } from '../session';
 import { changed, notice, rows_shown, state } from '../state';
 import { ask_why_latency, ask_why_unanswered } from '../causes';
@@ -14,10 +15,12 @@ let filter = '';
 
 const kStillUnderWay = 'send: the last frame is still under way';
 
+const kSendable = 'a frame or a request; write for example 01 03 00 0a 00 02 crc, read 40011:2, or text in quotation marks';
+
 async function send(text: string): Promise<void> {
   const line = text.trim();
   if (line === '') return;
-  const reply = await command(`send ${line}`), told = `send ${line}: `, at_ns = state.past?.now_ns ?? 0;
+  const reply = await command(line_of`send ${words(line, kSendable)}`), told = `send ${line}: `, at_ns = state.past?.now_ns ?? 0;
   if (reply.error?.startsWith(told)) notice(reply.error.slice(told.length), 'error', 'send');
   if (reply.error?.startsWith(kStillUnderWay)) notice('The last frame is still under way or waiting for its answer: Run on first', 'error', 'send');
   if (reply.error === undefined) waiting = { of: state.hello, at_ns, frame: line };

@@ -2,6 +2,7 @@
 import { h, type Part } from '../dom';
 import { add_to_chart } from './chart';
 import { ask_effect, ask_who, ask_why, ask_why_not } from '../causes';
+import { line_of } from '../commands';
 import { command } from '../session';
 import { watch_address } from '../timeline/view';
 import { changed, state } from '../state';
@@ -36,7 +37,7 @@ const kItems: { title: (address: string) => string; does: (address: string) => v
   { title: () => 'What keeps it so?', does: (address) => void ask_why_not(address), of_bits: true },
   { title: () => 'What came of its last change?', does: (address) => void ask_effect(address) },
   { title: () => 'Who wrote it last?', does: (address) => void ask_who(address) },
-  { title: () => 'Stop when it changes', does: (address) => void command(`watch ${address}`) },
+  { title: () => 'Stop when it changes', does: (address) => void command(line_of`watch ${address}`) },
 ];
 
 export function menu(): Part | null {

@@ -1,5 +1,6 @@
 // Program status: the listing with power flow and values at the moment where the session stands. Only the lines in view are made.
 import { h, is_press, kept, type Child, type Part } from '../dom';
+import { line_of } from '../commands';
 import { command, fetch_chunk_of, go_to, see_lines, take_over } from '../session';
 import { changed, notice, state } from '../state';
 import { operand_text } from '../formats';
@@ -41,7 +42,7 @@ function follow(): void {
 export async function toggle_breakpoint(line: number | null): Promise<void> {
   if (line === null) return;
   const number = state.breakpoints.get(line);
-  await command(number === undefined ? `break ${line} always` : `delete ${number}`);
+  await command(number === undefined ? line_of`break ${line} always` : line_of`delete ${number}`);
 }
 
 function has_text(line: Line, wanted: string): boolean {

@@ -1,7 +1,8 @@
 // Searches through the past: the nearest trouble, the next request without an answer, the longest answer, the longest scan.
 import { exchanges_of, is_unanswered, type Exchange } from '../exchanges';
 import { ask_why_latency } from '../causes';
-import { command, move, run_to, take_over_at_once } from '../session';
+import { line_of, words } from '../commands';
+import { command, move, query, run_to, take_over_at_once } from '../session';
 import { notice, state } from '../state';
 import { duration_text, moment_text, moment_word } from '../words';
 import { bring_into_view, searched_from, show_found, spans_searched } from './view';
@@ -133,18 +134,21 @@ const kLongestRun = 10e9;  // ns that are run for a condition when there is no p
 
 const kPassed = new Set(['limit', 'answer']);
 
+const kCondition = 'a condition; write for example VW20 > 5, Q0.3 or not T37';
+
 /** Goes to the next moment at which a condition comes to hold: through the past, or by running on. */
 export async function find_condition(condition: string): Promise<void> {
   if (condition.trim() === '') return;
   const is_wanted = await take_over_at_once(), past = state.past;
   if (!past || !is_wanted()) return;
-  const set = await command<Stops>(`break ${condition}; break`);
-  if (set.error !== undefined || !set.json) return;
-  const number = Math.max(...set.json.stops.map((one) => one.number));
+  const set = await command(line_of`break ${words(condition, kCondition)}`);
+  const stops = set.error === undefined ? (await query<Stops>(line_of`break`)).json : null;
+  if (!stops) return;
+  const number = Math.max(...stops.stops.map((one) => one.number));
   const length = past.in_the_past ? past.newest_ns - past.now_ns : kLongestRun, end_ns = past.now_ns + length;
   const run = is_wanted() ? await run_to(end_ns, is_wanted) : undefined;
-  await command(`delete ${number}`);
+  await command(line_of`delete ${number}`);
   if (!is_wanted() || run?.interrupted || !kPassed.has(run?.json?.stopped ?? '')) return;  // found, paused, or it cannot run so far: that is said
-  if (past.in_the_past) await move(`at ${moment_word(past.now_ns)}`);
+  if (past.in_the_past) await move(line_of`at ${moment_word(past.now_ns)}`);
   notice(`${condition} does not come to hold within ${duration_text(length)}`);
 }

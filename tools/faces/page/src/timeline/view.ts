@@ -1,7 +1,7 @@
 // Which part of the past the timeline shows, and what it asks for: a little more than the window, so that moving it is smooth.
 import { also_seen, go_to, look_through, query, Seen } from '../session';
-import { changed, show_pane, state } from '../state';
-import { is_one_word } from '../formats';
+import { changed, notice, show_pane, state } from '../state';
+import { kAddresses, line_of, symbol_named, word_of, type Command } from '../commands';
 import { moment_word } from '../words';
 import type { Hello, Span, Spans, SpanTrack } from '../protocol';
 
@@ -20,8 +20,9 @@ export function window_of(): { from_ns: number; to_ns: number } {
   return { from_ns, to_ns: newest + (newest - from_ns) * kMargin };
 }
 
-function query_of(from_ns: number, to_ns: number, elements: number, watched: string[]): string {
-  return `spans ${[moment_word(from_ns), moment_word(to_ns), String(elements), ...watched.filter(is_one_word)].join(' ')}`;
+function query_of(from_ns: number, to_ns: number, elements: number, watched: string[]): Command {
+  const asked = [moment_word(from_ns), moment_word(to_ns), String(elements), ...watched.filter((one) => word_of(one) !== undefined)];
+  return line_of`spans ${asked}`;
 }
 
 export async function spans_between(from_ns: number, to_ns: number, elements = kElements, watched: string[] = []): Promise<Spans | null> {
@@ -206,7 +207,13 @@ export function clear_cursors(): void {
   changed();
 }
 
-export function watch_address(address: string): void {
+/** A track has the name of its address. */
+export function watch_address(name: string): void {
+  const address = symbol_named(name)?.address ?? name;
+  if (word_of(address) === undefined) {
+    notice(`'${address}' is not ${kAddresses}`, 'error');
+    return;
+  }
   if (!state.watched.includes(address)) state.watched.push(address);
   show_pane('timeline');
   seen.refresh();
