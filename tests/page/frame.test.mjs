@@ -185,6 +185,27 @@ test('the mode switch stops the CPU and starts it', async () => {
   await page.close();
 });
 
+test('to power up again is asked first', async () => {
+  const page = await open(chrome, plc.address);
+  await page.click('#do-scan');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 0);
+  const before = await moment(page);
+  await page.keyboard.press('Shift+U');
+  await page.waitForSelector('[role=dialog] #power-up:focus');
+  await picture(page, 'frame_power_up');
+  await page.keyboard.press('Shift+U');
+  await page.keyboard.press('Escape');
+  await page.waitForSelector('[role=dialog]', { state: 'detached' });
+  assert.equal(await moment(page), before);
+  await page.keyboard.press('Shift+U');
+  await page.waitForSelector('[role=dialog] #power-up:focus');
+  await page.keyboard.press('Enter');
+  await page.waitForSelector('[role=dialog]', { state: 'detached' });
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) === 0);
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
 test('dark, and a phone shows one pane at a time', async () => {
   const dark = await open(chrome, plc.address, { colorScheme: 'dark' });
   await picture(dark, 'frame_dark');

@@ -1,5 +1,5 @@
 // Everything that one can do, once: buttons, keys and the help read this table.
-import { changed, notice, show_pane, state } from './state';
+import { changed, notice, show_dialog, show_pane, state } from './state';
 import { line_of, type Command } from './commands';
 import { command, go_to, go_to_named, move, pause } from './session';
 import { run } from './running';
@@ -47,6 +47,17 @@ async function step_to_interrupt(direction: 1 | -1): Promise<void> {
   if (found) return;
   await move(line_of`back`);
   notice(direction > 0 ? 'No interrupt within 10 s after this moment' : 'No interrupt before this moment');
+}
+
+/** There is no way back from it to what has run. */
+function ask_to_power_up(): void {
+  if ((state.past?.newest_ns ?? 0) === 0) void power_up();
+  else show_dialog('power-up');
+}
+
+export async function power_up(): Promise<void> {
+  show_dialog(null);
+  await move(line_of`restart`);
 }
 
 function go_to_mark(direction: 1 | -1): void {
@@ -116,7 +127,7 @@ export const kActions: Action[] = [
   { id: 'run', group: 'Run', title: 'Run or pause', keys: [' ', 'F5'], does: toggle_run },
   { id: 'mode-run', group: 'Run', title: 'Switch the CPU to RUN', keys: ['Shift+R'], does: () => void command(line_of`mode run`) },
   { id: 'mode-stop', group: 'Run', title: 'Switch the CPU to STOP', keys: ['Shift+P'], does: () => void command(line_of`mode stop`) },
-  { id: 'restart', group: 'Run', title: 'Power up again', keys: ['Shift+U'], does: () => void move(line_of`restart`) },
+  { id: 'restart', group: 'Run', title: 'Power up again', keys: ['Shift+U'], does: ask_to_power_up },
 
   { id: 'step', group: 'Steps', title: 'Instruction', keys: ['.', 'F11'], does: step(line_of`step`) },
   { id: 'rstep', group: 'Steps', title: 'Back by an instruction', keys: [',', 'Shift+F11'], does: step(line_of`rstep`) },

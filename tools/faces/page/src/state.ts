@@ -24,6 +24,13 @@ export interface PointRow {
   hertz: number;
 }
 
+/** A run stops when this address changes. */
+export interface Watch {
+  number: number;
+  station: string;
+  address: string;
+}
+
 /** A step of the trail that leads to a cause. */
 export interface TrailStep {
   question: string;
@@ -54,7 +61,7 @@ export interface State {
   pace: number;
   /** What is said over the status bar; of a command that was refused with the kind of command. */
   notice: { text: string; kind: 'info' | 'error'; of: string } | null;
-  dialog: 'help' | 'about' | 'measurement' | null;
+  dialog: 'help' | 'about' | 'measurement' | 'power-up' | null;
   menu: Menu | null;
   theme: Theme;
   /** The page is being drawn for paper. */
@@ -75,6 +82,8 @@ export interface State {
   selected_line: number | null;
   follow: boolean;
   breakpoints: Map<number, number>;
+  /** Changes of memory at which a run stops, of all PLCs. */
+  watches: Watch[];
 
   chart: ChartRow[];
   inputs: PointRow[];
@@ -153,6 +162,7 @@ export const state: State = {
   selected_line: null,
   follow: true,
   breakpoints: new Map(),
+  watches: [],
   chart: [],
   inputs: [],
   outputs: [],

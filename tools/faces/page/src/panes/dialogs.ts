@@ -1,10 +1,11 @@
 // The overlays: keys, and about.
 import { h, type Child, type Part } from '../dom';
 import { icon } from '../icons';
-import { kActions, key_text } from '../actions';
+import { kActions, key_text, power_up } from '../actions';
 import { can_open } from '../playground';
 import { measurement } from './measurement';
 import { show_dialog, state } from '../state';
+import { duration_text } from '../words';
 
 function close(): void {
   show_dialog(null);
@@ -16,6 +17,11 @@ function dialog(title: string, ...content: Child[]): Part {
       ref: (node: HTMLElement) => { if (!node.contains(document.activeElement)) node.focus(); } },
     h('header', {}, h('h2', {}, title), h('button', { class: 'plain', 'aria-label': 'Close', onclick: close }, icon('close'))),
     ...content));
+}
+
+/** In a dialog that asks. */
+function focus_first(button: HTMLElement): void {
+  if (!button.closest('.dialog')!.contains(document.activeElement)) button.focus();
 }
 
 function help(): Part {
@@ -58,6 +64,9 @@ export function dialogs(): Part | null {
   switch (state.dialog) {
     case 'help': return help();
     case 'about': return about();
+    case 'power-up': return dialog('Power up again',
+      h('p', {}, `The PLC begins again at 0 ms. What has run so far, ${duration_text(state.past?.newest_ns ?? 0)}, and what was done from outside meanwhile are gone then. Breakpoints and the status chart stay.`),
+      h('div', { class: 'chart-tools' }, h('button', { id: 'power-up', ref: focus_first, onclick: () => void power_up() }, 'Power up again'), h('button', { onclick: close }, 'Cancel')));
     case 'measurement': return dialog('Measured', ...measurement());
     default: return null;
   }
