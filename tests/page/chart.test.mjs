@@ -70,6 +70,19 @@ test('a switch is an input: the pump runs while the lamp says so', async () => {
   await picture(page, 'chart_running');
 });
 
+test('after a click on an input Space is Run and Pause, and leaves the input alone', async () => {
+  const on = () => page.getAttribute('[aria-label^="Input I0.5"]', 'aria-checked');
+  await page.click('[aria-label^="Input I0.5"]');
+  await page.waitForSelector('[aria-label^="Input I0.5"][aria-checked=true]');
+  await page.keyboard.press(' ');
+  await page.waitForSelector('#do-run:has-text("Pause")');
+  await page.keyboard.press(' ');
+  await page.waitForSelector('#do-run:has-text("Run")');
+  assert.equal(await on(), 'true');
+  await page.click('[aria-label^="Input I0.5"]');
+  await page.waitForSelector('[aria-label^="Input I0.5"][aria-checked=false]');
+});
+
 test('a push button is on as long as it is pressed', async () => {
   await page.click('[aria-label^="Input I0.7"]', { button: 'right' });
   await page.hover('.switch.push[aria-label^="Input I0.7"]');

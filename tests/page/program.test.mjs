@@ -157,6 +157,36 @@ test('a click on an address opens its menu, which leads to chart, who and why', 
   await page.close();
 });
 
+test('that a run stops when an address changes is seen, once, and taken back, after the page was loaded anew too', async () => {
+  const page = await open(chrome, await start(...kPump));
+  const choose = async (text, from = row(page, '=      Pump').locator('.operand')) => {
+    await from.click();
+    await page.click(`[role=menuitem]:text-is("${text}")`);
+  };
+  await choose('Stop when it changes');
+  await page.waitForSelector('.notice:has-text("A run stops when Q0.0 changes")');
+  await page.waitForSelector('.watches .watch:has-text("Q0.0")');
+  await picture(page, 'program_watch');
+  await page.reload();
+  await page.waitForSelector('.watches .watch:has-text("Q0.0")');
+  await row(page, '=      Pump').waitFor();
+  await choose('No longer stop when it changes');
+  await page.waitForSelector('.watches', { state: 'detached' });
+  await page.fill('#add-address', 'Pump');
+  await page.press('#add-address', 'Enter');
+  await choose('Stop when it changes', page.locator('[aria-label="Menu of Pump"]'));
+  await page.waitForSelector('.watches .watch:has-text("Q0.0")');
+  await page.click('[aria-label^="Input I0.1"]');
+  await page.click('[aria-label^="Input I0.0"]');
+  await page.keyboard.press('F5');
+  await page.waitForSelector('.notice:has-text("Q0.0")');
+  assert.ok(await moment(page) < 1000);
+  await page.click('[aria-label="No longer stop when Q0.0 changes"]');
+  await page.waitForSelector('.watches', { state: 'detached' });
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
 test('the keyboard reaches lines, breakpoints and the menus of addresses', async () => {
   const page = await open(chrome, await start(...kPump));
   await page.keyboard.press('1');

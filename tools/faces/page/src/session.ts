@@ -1,5 +1,5 @@
 // What the page does with its session: commands, and the queries about what is seen, asked anew whenever it has moved.
-import { changed, notice, state, the_engine } from './state';
+import { changed, notice, state, the_engine, type Watch } from './state';
 import { kProtocol } from './protocol';
 import type { Hello, Line, Notification, Outline, Past, PieceOfRun, Reply, Spans, Status, Stopped, Stops, Value } from './protocol';
 import { line_of, Refused, word_of, words, type Command } from './commands';
@@ -215,6 +215,12 @@ export function see_values(): void {
   values.refresh();
 }
 
+/** `gateway: VW100 (Level low) is 16#0000 (0)`: the PLC is said in a system only. */
+function watch_of({ number, text }: Stops['stops'][number]): Watch {
+  const station = state.hello?.stations.find((one) => text.startsWith(`${one}: `)), of_station = station === undefined ? text : text.slice(station.length + 2);
+  return { number, station: station ?? '', address: of_station.split(' ', 1)[0]! };
+}
+
 /** The breakpoints and watches as the session has them. */
 const stops = new Seen(async () => {
   const reply = await query<Stops>(line_of`break`);
@@ -222,6 +228,7 @@ const stops = new Seen(async () => {
   state.breakpoints = new Map();
   for (const stop of reply.json.stops)
     if (stop.line !== undefined && (stop.station ?? '') === (state.past?.station ?? '')) state.breakpoints.set(stop.line, stop.number);
+  state.watches = reply.json.stops.filter((one) => one.kind === 'watch').map(watch_of);
 });
 
 /** Mode and errors, which commands change without going elsewhere. */

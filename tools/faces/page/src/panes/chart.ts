@@ -9,7 +9,7 @@ import { level_of, switch_to, terminal_level } from '../switches';
 import { remember, remembered } from '../kept';
 import { chart_from, chart_text } from '../status_charts';
 import type { Value } from '../protocol';
-import { open_menu } from './menu';
+import { end_watch, open_menu } from './menu';
 import { icon } from '../icons';
 
 const kKept = 'chart';
@@ -198,6 +198,11 @@ async function change_kind(row: PointRow, with_mouse: boolean): Promise<void> {
   changed();
 }
 
+/** After a click with the mouse Space is Run again, not the switch. */
+function leave_to_keys(event?: MouseEvent): void {
+  if (event && event.detail > 0) (event.currentTarget as HTMLElement).blur();
+}
+
 /** A switch stays where it is put, a push button returns when it is let go, a pulse train begins and ends with a click. */
 function input_switch(row: PointRow): Part {
   const { address, kind } = row, pulsing = is_pulsing(address);
@@ -208,7 +213,7 @@ function input_switch(row: PointRow): Part {
   return h('div', { class: 'point', key: address },
     h('button', { class: `switch ${kind}${on ? ' on' : ''}${forced ? ' forced' : ''}`, role: 'switch', 'aria-checked': String(on),
       'aria-label': `Input ${address} ${symbol_of(address)}`.trim(), title: name,
-      onclick: () => { if (kind === 'switch') void switch_to(address, on ? 0 : 1); else if (kind === 'pulses') void toggle_pulses(row); },
+      onclick: (event?: MouseEvent) => { leave_to_keys(event); if (kind === 'switch') void switch_to(address, on ? 0 : 1); else if (kind === 'pulses') void toggle_pulses(row); },
       onpointerdown: press(1), onpointerup: press(0), onpointerleave: () => { if (kind === 'push' && on) void switch_to(address, 0); },
       onkeydown: (event: KeyboardEvent) => {
         if (event.key === ' ' && !event.repeat) press(1)({});
@@ -248,6 +253,17 @@ function points(name: string, content: Child[]): Part {
   return h('div', { class: 'points', role: 'group', 'aria-label': name }, h('span', { class: 'points-name' }, name), ...content);
 }
 
+/** What a run stops at beside the breakpoints of the listing. */
+function watches(): Part | null {
+  if (state.watches.length === 0) return null;
+  return h('div', { class: 'chart-tools watches', role: 'group', 'aria-label': 'Stops when it changes' }, h('span', { class: 'hint' }, 'Stops when it changes:'),
+    state.watches.map((one) => {
+      const name = `${one.station ? `${one.station} ` : ''}${one.address}`;
+      return h('span', { class: 'watch', key: one.number }, name,
+        h('button', { class: 'plain', 'aria-label': `No longer stop when ${name} changes`, title: 'No longer stop at it', onclick: () => void end_watch(one) }, icon('close')));
+    }));
+}
+
 export function chart_pane(): Part {
   const forced = [...state.values.values()].some((value) => value.forced);
   return h('div', { class: 'chart-pane' },
@@ -257,6 +273,7 @@ export function chart_pane(): Part {
       h('button', { onclick: () => void write_all(), title: 'Write all new values' }, 'Write all'),
       h('button', { onclick: () => void command(line_of`unforce all`), disabled: !forced, title: 'Release everything that is forced' }, 'Unforce all'),
       h('button', { onclick: copy_chart, disabled: state.chart.length === 0, title: 'Copy the chart as Micro/WIN has it' }, 'Copy')),
+    watches(),
     h('table', { class: 'chart' },
       h('thead', {}, h('tr', {}, ['Address', 'Format', 'Current value', 'New value', '', 'Trend'].map((name) => h('th', {}, name)))),
       h('tbody', {}, state.chart.map(chart_row))),

@@ -2,10 +2,10 @@
 import { h, type Part } from '../dom';
 import { add_to_chart } from './chart';
 import { ask_effect, ask_who, ask_why, ask_why_not } from '../causes';
-import { line_of } from '../commands';
+import { line_of, symbol_named } from '../commands';
 import { command } from '../session';
 import { watch_address } from '../timeline/view';
-import { changed, state } from '../state';
+import { changed, notice, state, type Watch } from '../state';
 
 function open_at(x: number, y: number, address: string, op: number | null): void {
   state.menu = { x, y, address, op };
@@ -30,6 +30,23 @@ export function close_menu(): void {
   changed();
 }
 
+function watches_of(name: string): Watch[] {
+  const address = (symbol_named(name)?.address ?? name).toUpperCase();
+  return state.watches.filter((one) => one.address.toUpperCase() === address && one.station === (state.past?.station ?? ''));
+}
+
+async function toggle_watch(name: string): Promise<void> {
+  const set = watches_of(name);
+  if (set.length > 0) return set.forEach((one) => void end_watch(one));
+  const reply = await command(line_of`watch ${name}`);
+  if (reply.error === undefined) notice(`A run stops when ${name} changes`);
+}
+
+export async function end_watch({ number, address }: Watch): Promise<void> {
+  const reply = await command(line_of`delete ${number}`);
+  if (reply.error === undefined) notice(`A run no longer stops when ${address} changes`);
+}
+
 const kItems: { title: (address: string) => string; does: (address: string) => void; of_bits?: boolean }[] = [
   { title: () => 'Add to status chart', does: add_to_chart },
   { title: () => 'Show on the timeline', does: watch_address },
@@ -37,7 +54,7 @@ const kItems: { title: (address: string) => string; does: (address: string) => v
   { title: () => 'What keeps it so?', does: (address) => void ask_why_not(address), of_bits: true },
   { title: () => 'What came of its last change?', does: (address) => void ask_effect(address) },
   { title: () => 'Who wrote it last?', does: (address) => void ask_who(address) },
-  { title: () => 'Stop when it changes', does: (address) => void command(line_of`watch ${address}`) },
+  { title: (address) => (watches_of(address).length > 0 ? 'No longer stop when it changes' : 'Stop when it changes'), does: (address) => void toggle_watch(address) },
 ];
 
 export function menu(): Part | null {
