@@ -155,10 +155,10 @@ test('whatever is typed or in a file is one word of a command: no other command 
       }
       await row.locator('.new-value').fill('');
       await row.locator('.tools button').first().click();
-      for (let i = 0; i < (with_menu.includes(text) ? 6 : 0); ++i) {
+      for (let i = 0; i < (with_menu.includes(text) ? 8 : 0); ++i) {
         await page.click('#tab-chart');
         await row.locator('[title="Chart, who, why"]').click();
-        await page.locator('[role=menuitem]').nth(i).click({ timeout: i < 5 ? 10000 : 300 }).catch(() => page.keyboard.press('Escape'));  // of words there are fewer
+        await page.locator('[role=menuitem]').nth(i).click({ timeout: i < 7 ? 10000 : 300 }).catch(() => page.keyboard.press('Escape'));  // of words there are fewer
         await rendered(page);
       }
     });

@@ -6,7 +6,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { test } from 'node:test';
 
-const kParts = ['state', 'words', 'commands', 'formats', 'exchanges', 'files', 'status_charts', 'timeline/draw', 'timeline/scale', 'timeline/measure'];
+const kParts = ['state', 'words', 'commands', 'formats', 'exchanges', 'files', 'status_charts', 'causes', 'timeline/draw', 'timeline/scale', 'timeline/measure'];
 const source = kParts.map((one) => `export * from './${one}';`).join('\n');
 const bundle = execFileSync('esbuild', ['--bundle', '--format=esm', '--platform=neutral'],
   { input: source, cwd: path.join(process.env.SOURCE, 'tools/faces/page/src'), encoding: 'utf8' });
@@ -262,6 +262,12 @@ test('a small program fits into an address and comes back, a damaged address bri
   assert.deepEqual(await parts.sources_in('#p=AAAA'), []);
   const noise = Array.from({ length: 30000 }, (_, i) => (i * 2654435761 % 4294967296).toString(36)).join('');
   assert.equal(await parts.address_of([{ name: 'a.awl', text: noise }]), undefined);
+});
+
+test('an address is used where memory of it is', () => {
+  const pairs = [['V10.3', 'VB10'], ['VW9', 'VB10'], ['VD7', 'V10.7'], ['Q0.0', 'q0.0'], ['T37', 'T37'], ['AIW0', 'AIW0'], ['SMB30', 'SM30.1']];
+  for (const [one, other] of pairs) assert.ok(parts.overlap(one, other) && parts.overlap(other, one), `${one} ${other}`);
+  for (const [one, other] of [['V10.3', 'V10.4'], ['VW9', 'VB11'], ['VB0', 'MB0'], ['T37', 'C37'], ['AIW0', 'AIW2'], ['SMB30', 'MB30']]) assert.ok(!parts.overlap(one, other), `${one} ${other}`);
 });
 
 test('a status chart of Micro/WIN is read, and written as it is', () => {

@@ -4,7 +4,7 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { browser, end, moment, open, picture, view } from './support.mjs';
+import { browser, end, moment, open, picture, rendered, view } from './support.mjs';
 
 const kPump = ['tests/exports/pump.awl', 'tests/exports/pump_symbols.txt', 'tests/exports/pump_data.txt'];
 const kFolder = mkdtempSync(path.join(os.tmpdir(), 'page-'));
@@ -153,6 +153,68 @@ test('a click on an address opens its menu, which leads to chart, who and why', 
   await page.click('[role=menuitem]:has-text("Who wrote it last")');
   await page.waitForSelector('.trail li');
   assert.match(await page.textContent('.trail'), /Q0\.0/);
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
+/** How many pixels of the timeline's canvas have the colour of the present, left of it. */
+const marked = (page) => page.evaluate(() => {
+  const canvas = document.querySelector('#timeline'), { data, width } = canvas.getContext('2d').getImageData(0, 24, canvas.width * 0.9, canvas.height - 24);
+  const probe = document.createElement('canvas').getContext('2d');
+  probe.fillStyle = getComputedStyle(canvas).getPropertyValue('--now').trim();
+  probe.fillRect(0, 0, 1, 1);
+  const [red, green, blue] = probe.getImageData(0, 0, 1, 1).data;
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) if (data[i] === red && data[i + 1] === green && data[i + 2] === blue) ++count;
+  return width > 0 ? count : -1;
+});
+
+test('a click on a line shows its executions: the last one in words, its network on the timeline, the ways to others', async () => {
+  const program = path.join(kFolder, 'lines.awl');
+  writeFileSync(program, 'NETWORK 1\nLD     SM0.1\nMOVW   1, VW100\nNETWORK 2\nLD     I0.0\nCALL   SBR0\nMEND\nSBR    0\nNETWORK 3\nLD     SM0.0\nS      V10.0, 1\nRET\n');
+  const page = await open(chrome, await start(program));
+  for (let i = 0; i < 4; ++i) await page.click('#do-scan');
+  await page.waitForSelector('.scan-number:has-text("scan 5")');
+  assert.equal(await marked(page), 0);
+  await row(page, 'MOVW').locator('.text').click({ position: { x: 400, y: 8 } });
+
+  await page.waitForSelector('.line-here span:text-matches("line 3: executed last at [0-9.]+ ms")');
+  await rendered(page);
+  assert.ok(await marked(page) > 20);
+  await picture(page, 'program_line');
+  const now = await moment(page);
+  await page.click('#timeline-line-before');
+  await page.waitForFunction((before) => parseFloat(document.querySelector('#moment').value) < before, now);
+  await page.waitForSelector('.row.here:has-text("MOVW")');
+  const last = await moment(page);
+  await page.click('#timeline-line-before');
+  await page.waitForFunction((before) => parseFloat(document.querySelector('#moment').value) < before, last);
+  await page.click('#timeline-line-after');
+  await page.waitForFunction((wanted) => parseFloat(document.querySelector('#moment').value) === wanted, last);
+  await row(page, 'V10.0').locator('.text').click({ position: { x: 400, y: 8 } });
+  await page.waitForSelector('.line-here:has-text("line 11: never executed up to this moment")');
+  for (const [way, told] of [['before', 'Line 11 was not executed before this moment'], ['after', 'Line 11 is not executed in the next 10 s']]) {
+    await page.click(`#timeline-line-${way}`);
+    await page.waitForSelector(`.notice:has-text("${told}")`);
+    assert.equal(await moment(page), last);
+  }
+  await row(page, 'V10.0').locator('.text').dblclick({ position: { x: 400, y: 8 } });
+  await page.waitForSelector('.notice:has-text("Line 11: never executed up to this moment")');
+  await page.click('[aria-label="Select no line"]');
+  await page.waitForSelector('.line-here', { state: 'detached' });
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
+test('where an address is used is a list of lines, which lead there', async () => {
+  const page = await open(chrome, await start(...kPump));
+  await row(page, '=      Pump').locator('.operand').click();
+  await page.click('[role=menuitem]:has-text("Where is it used?")');
+  await page.waitForSelector('.trail .question:has-text("Where is Pump (Q0.0) used?")');
+  assert.match(await page.textContent('.trail li:first-child pre'), /line 14: O +Pump.*line 17: = +Pump/s);
+  await picture(page, 'program_cross_reference');
+  await page.click('.trail button:text-is("line 14")');
+  await page.waitForSelector('.row.selected:has-text("O      Pump")');
   assert.deepEqual(page.troubles, []);
   await page.close();
 });

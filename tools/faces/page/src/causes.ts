@@ -1,7 +1,7 @@
 // Why and who: each answer is a step of a trail that one walks back to the cause.
 import { changed, show_pane, state } from './state';
-import { line_of, type Command } from './commands';
-import { command, go_to, look_at, query, Seen } from './session';
+import { line_of, symbol_named, type Command } from './commands';
+import { command, fetch_chunk_of, go_to, look_at, query, Seen, take_over } from './session';
 import { bring_into_view } from './timeline/view';
 import type { Exchange } from './exchanges';
 import type { Cause, Done, Past, Value } from './protocol';
@@ -36,6 +36,38 @@ export async function ask_why_not(address: string): Promise<void> {
 
 export function ask_who(address: string): Promise<void> {
   return ask(`Who wrote ${named(address)} last?`, line_of`who ${address}`);
+}
+
+const kBytes: Record<string, number> = { '': 1, B: 1, W: 2, D: 4 };
+
+/** The bytes of V, M and the others that an address means, and its bit if it is one. */
+function place_of(address: string): { area: string; first: number; end: number; bit: string } | undefined {
+  const parts = /^(SM|[IQVMSL]|A[IQ](?=W))([BWD]?)(\d+)(?:\.(\d))?$/.exec(address.toUpperCase());
+  return parts ? { area: parts[1]!, first: Number(parts[3]), end: Number(parts[3]) + kBytes[parts[2]!]!, bit: parts[4] ?? '' } : undefined;
+}
+
+/** Whether both have memory in common. */
+export function overlap(one: string, other: string): boolean {
+  const a = place_of(one), b = place_of(other);
+  if (!a || !b) return one.toUpperCase() === other.toUpperCase();
+  return a.area === b.area && a.first < b.end && b.first < a.end && (a.bit === '' || b.bit === '' || a.bit === b.bit);
+}
+
+const kMostUses = 300;
+
+/** The lines of the program that name an address, or memory of it: Micro/WIN's cross reference. */
+export async function ask_where_used(name: string): Promise<void> {
+  const address = symbol_named(name)?.address ?? name, at_ns = state.past?.now_ns ?? 0, is_wanted = take_over(), uses: string[] = [];
+  for (let line = 1; line <= (state.outline?.lines ?? 0); ++line) {
+    await fetch_chunk_of(line);
+    const one = state.lines.get(line), named_so = one?.operands?.filter((each) => each.address !== '' && overlap(each.address, address)) ?? [];
+    if (one && named_so.length > 0) uses.push(`line ${line}: ${one.text.trim()}${named_so.some((each) => each.address === address) ? '' : ` (${named_so[0]!.address})`}`);
+  }
+  if (!is_wanted()) return;
+  const more = uses.length - kMostUses;
+  const text = uses.length === 0 ? 'The program does not name it; a pointer may lead there.' : [...uses.slice(0, kMostUses), ...(more > 0 ? [`and ${more} more`] : [])].join('\n');
+  state.trail = [...state.trail, { question: `Where is ${named(address)} used?`, at_ns, text, cause: null }].slice(-kMostSteps);
+  show_pane('causes');
 }
 
 /** What the last change of an address made otherwise, and until when. */

@@ -161,8 +161,10 @@ async function fetch_lines(): Promise<void> {
 
 async function fetch_status(): Promise<void> {
   if (!state.outline) return;
-  const reply = await query<Status>(line_of`status ${seen_lines[0]} ${Math.min(seen_lines[1], state.outline.lines)}`);
-  if (reply.json) state.executions = new Map(reply.json.lines.map((one) => [one.op, one]));
+  const first = seen_lines[0], last = Math.min(seen_lines[1], state.outline.lines), reply = await query<Status>(line_of`status ${first} ${last}`);
+  if (!reply.json) return;
+  state.executions = new Map(reply.json.lines.map((one) => [one.op, one]));
+  state.executions_known = { first, last, since_ns: reply.json.since_ns };
 }
 
 const lines = new Seen(fetch_lines);
@@ -253,6 +255,7 @@ function forget_program(): void {
   chunks = new Map();
   state.lines.clear();
   state.executions.clear();
+  state.executions_known = null;
   state.ladder.clear();
 }
 

@@ -74,6 +74,8 @@ export interface State {
   outline: Outline | null;
   lines: Map<number, Line>;
   executions: Map<number, Execution>;
+  /** Of which lines, and from which moment on, all last executions are known. */
+  executions_known: { first: number; last: number; since_ns: number } | null;
   /** Networks as ladder, by the line of the network. */
   ladder: Map<number, LadderNetwork[]>;
   view: 'stl' | 'ladder';
@@ -156,6 +158,7 @@ export const state: State = {
   outline: null,
   lines: new Map(),
   executions: new Map(),
+  executions_known: null,
   ladder: new Map(),
   view: 'stl',
   has_ladder: false,

@@ -4,24 +4,27 @@ import { ask_effect, ask_who, ask_why, ask_why_not, forget_trail, see_done } fro
 import { line_of } from '../commands';
 import { go_to, move } from '../session';
 import { switch_to, terminal_level } from '../switches';
+import { show_line } from './program';
 import { rows_shown, state, type TrailStep } from '../state';
 import { moment_text, with_times } from '../words';
 import type { Obstacle } from '../protocol';
 
 const kAddress = /\b(?:(?:SM|[IQVMSL])\d+\.[0-7]|(?:SM|[IQVMSL])[BWD]\d+|A[IQ]W\d+|[TC]\d{1,3}|HC\d|AC[0-3])\b/g;
+const kLine = /\bline (\d+)\b/g;
 const kMoment = /\b(\d+\.\d{6}) ms\b/g;
 
 /** A line of an answer: its moments lead there, its addresses ask on. */
 export function linked(line: string): Child[] {
   const parts: Child[] = [];
   let end = 0;
-  const marks = [...line.matchAll(kAddress), ...line.matchAll(kMoment)].sort((a, b) => a.index! - b.index!);
+  const marks = [...line.matchAll(kAddress), ...line.matchAll(kMoment), ...(state.hello?.stations.length ? [] : line.matchAll(kLine))].sort((a, b) => a.index! - b.index!);
   for (const mark of marks) {
     if (mark.index! < end) continue;
     parts.push(with_times(line.slice(end, mark.index)));
-    const text = mark[0];
-    const ns = Math.round(Number(mark[1]) * 1e6);
-    parts.push(mark[1] !== undefined
+    const text = mark[0], number = Number(mark[1]);
+    const ns = Math.round(number * 1e6);
+    parts.push(text.startsWith('line') ? h('button', { class: 'link', title: 'Show this line', onclick: () => show_line(number) }, text)
+      : mark[1] !== undefined
       ? h('button', { class: 'link', title: 'Go to this moment', onclick: () => void go_to(ns) }, moment_text(ns))
       : h('button', { class: 'link', title: `Why ${text}?`, onclick: () => void ask_why(text) }, text));
     end = mark.index! + text.length;

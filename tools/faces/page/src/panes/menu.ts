@@ -1,7 +1,7 @@
 // The menu of an address: what one can ask and do about it.
 import { h, type Part } from '../dom';
 import { add_to_chart } from './chart';
-import { ask_effect, ask_who, ask_why, ask_why_not } from '../causes';
+import { ask_effect, ask_where_used, ask_who, ask_why, ask_why_not } from '../causes';
 import { line_of, symbol_named } from '../commands';
 import { command } from '../session';
 import { watch_address } from '../timeline/view';
@@ -53,6 +53,7 @@ const kItems: { title: (address: string) => string; does: (address: string) => v
   { title: () => 'Why has it this value?', does: (address) => void ask_why(address) },
   { title: () => 'What keeps it so?', does: (address) => void ask_why_not(address), of_bits: true },
   { title: () => 'What came of its last change?', does: (address) => void ask_effect(address) },
+  { title: () => 'Where is it used?', does: (address) => void ask_where_used(address) },
   { title: () => 'Who wrote it last?', does: (address) => void ask_who(address) },
   { title: (address) => (watches_of(address).length > 0 ? 'No longer stop when it changes' : 'Stop when it changes'), does: (address) => void toggle_watch(address) },
 ];

@@ -6,6 +6,7 @@ import { changed, notice, state } from '../state';
 import { operand_text } from '../formats';
 import { duration_text, moment_text } from '../words';
 import type { Execution, Line, Operand, Outline } from '../protocol';
+import { executed_text } from '../timeline/executions';
 import { open_menu, open_menu_at } from './menu';
 import { ladder_view, show_in_ladder } from './ladder';
 import { opener } from './opener';
@@ -117,8 +118,10 @@ function values_of(line: Line, execution: Execution): Part[] {
 }
 
 function go_to_execution(line: Line | undefined): void {
-  const execution = line && line.op !== null ? state.executions.get(line.op) : undefined;
+  if (!line || line.op === null) return;
+  const execution = state.executions.get(line.op), told = executed_text({ line: line.line, op: line.op });
   if (execution) void go_to(execution.at_ns);
+  else if (told !== '') notice(`Line ${line.line}: ${told}`);
 }
 
 function row(number: number, headings: Set<number>): Part {
@@ -195,6 +198,15 @@ function on_key(event: KeyboardEvent): void {
   state.selected_line = line;
   const top = (line - 1) * kRow;
   if (scroller && (top < scroller.scrollTop || top > scroller.scrollTop + scroller.clientHeight - kRow)) scroll_to(line);
+  changed();
+}
+
+/** A line that an answer names. */
+export function show_line(line: number): void {
+  state.selected_line = line;
+  state.pane = 'program';
+  if (state.view === 'ladder') show_in_ladder(line);
+  else scroll_to(line);
   changed();
 }
 

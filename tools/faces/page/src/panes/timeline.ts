@@ -4,6 +4,7 @@ import { draw, height_of, kRuler, rows_of, span_at, span_text, type Theme, type 
 import { ns_at, type Scale } from '../timeline/scale';
 import { measure } from '../timeline/measure';
 import * as search from '../timeline/search';
+import { executed_text, go_to_other_execution, is_of_selected, select_line, selected_instruction } from '../timeline/executions';
 import * as timeline from '../timeline/view';
 import { go_to } from '../session';
 import { compare_futures, difference_text, run_second, shown_spans } from '../futures';
@@ -55,7 +56,7 @@ function paint(node: HTMLCanvasElement): void {
   const context = node.getContext('2d', { alpha: false })!;
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   shown = { scale: scale_of(width), rows, width, height, now_ns: timeline.shown_now(), newest_ns: timeline.runs_on() ? timeline.shown_now() : state.past?.newest_ns ?? 0,
-    cursors: state.cursors, marks: state.marks, selected: state.selected_span };
+    cursors: state.cursors, marks: state.marks, selected: state.selected_span, is_of_line: is_of_selected() };
   draw(context, shown, theme_of(node));
   tell();
 }
@@ -155,6 +156,18 @@ export function room_of_tracks(): number {
   return most_room;
 }
 
+/** The line that is selected in the listing, with its executions. */
+function line_here(): Part | null {
+  const selected = selected_instruction();
+  if (!selected) return null;
+  const told = executed_text(selected);
+  return h('span', { class: 'line-here', role: 'group', 'aria-label': 'Executions of the line' },
+    tool('line-before', `Back to the last execution of line ${selected.line}`, () => void go_to_other_execution(-1), icon('back')),
+    h('span', { title: 'Its network is marked on the timeline' }, `line ${selected.line}${told ? `: ${told}` : ''}`),
+    tool('line-after', `To the next execution of line ${selected.line}`, () => void go_to_other_execution(1), icon('forward')),
+    h('button', { class: 'plain', 'aria-label': 'Select no line', onclick: () => select_line(null) }, icon('close')));
+}
+
 export function timeline_pane(): Part {
   const { from_ns, to_ns } = timeline.window_of();
   return h('section', { id: 'pane-timeline', class: 'pane timeline', 'aria-label': 'Timeline', tabindex: '-1' },
@@ -171,6 +184,7 @@ export function timeline_pane(): Part {
       state.first_future ? tool('second', 'Run as far as the first future goes', () => void run_second(), icon('run')) : null,
       tool('a', 'Cursor A here ([)', () => timeline.set_cursor('a'), 'A'), tool('b', 'Cursor B here (])', () => timeline.set_cursor('b'), 'B'),
       tool('measure', 'Measure between the cursors, or what is in view: count, shortest, average, longest, histogram (Shift+M)', () => void measure(), 'Measure'),
+      line_here(),
       h('span', { class: 'readout', role: 'status' }, state.computing ? 'computing …' : told || (state.first_future ? difference_text() : '') || measured() || `${duration_text(to_ns - from_ns)} in view`),
       state.cursors.a_ns !== null ? h('button', { class: 'plain', 'aria-label': 'Remove cursors', onclick: timeline.clear_cursors }, icon('close')) : null,
       state.spans?.left_out?.length ? h('span', { class: 'small', title: 'Zoom in to 10 s or less' }, `zoom in for ${state.spans.left_out.join(', ')}`) : null),

@@ -55,6 +55,8 @@ export interface View {
   cursors: { a_ns: number | null; b_ns: number | null };
   marks: number[];
   selected: Span | null;
+  /** Executions of the line that is selected in the listing. */
+  is_of_line?: (track: SpanTrack, one: Span) => boolean;
 }
 
 function colour_of(track: SpanTrack, one: Span, theme: Theme): string {
@@ -96,7 +98,7 @@ function draw_spans(c: CanvasRenderingContext2D, view: View, row: Row, theme: Th
   const columns = new Float64Array(Math.ceil(view.width) + 1);
   const per_pixel = (scale.to_ns - scale.from_ns) / (scale.right - scale.left);
   const trouble: [number, number][] = [], differs: [number, number][] = [];
-  const waited: Span[] = [];
+  const waited: Span[] = [], of_line: [number, number][] = [];
   for (let i = first_after(track.spans, scale.from_ns); i < track.spans.length; ++i) {
     const one = track.spans[i]!;
     if (one.at_ns >= scale.to_ns) break;
@@ -104,6 +106,7 @@ function draw_spans(c: CanvasRenderingContext2D, view: View, row: Row, theme: Th
     const width = end - x, several = (one.count ?? 1) > 1;
     const wrong = one.error !== undefined || (one.errors ?? 0) > 0;
     if (wrong) trouble.push([x, Math.max(2, several ? 2 : width)]);
+    if (view.is_of_line?.(track, one)) of_line.push([x, Math.max(4, width)]);
     if (one.differs) differs.push([x, Math.max(2, width)]);
     if (one.occurred_ns !== undefined && !several && one.at_ns > one.occurred_ns) waited.push(one);
     if (one.end_ns === one.at_ns) {
@@ -137,6 +140,8 @@ function draw_spans(c: CanvasRenderingContext2D, view: View, row: Row, theme: Th
   c.fillStyle = theme['trouble']!;
   for (const [x, width] of trouble) c.fillRect(Math.min(x, scale.right - 2), top, width <= 2 ? 2 : width, width <= 2 ? height : 3);
   draw_differences(c, row, differs, theme);
+  c.fillStyle = theme['now']!;
+  for (const [x, width] of of_line) c.fillRect(x, top - kGap + 1, width, kGap);
 }
 
 /** A line below what only one of two futures has. */
