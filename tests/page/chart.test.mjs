@@ -52,6 +52,21 @@ test('a new value is written with Enter', async () => {
   await shows(0, '-5');
 });
 
+test('what is wrong with a value is said of the value', async () => {
+  for (const [typed, told] of [['abc', "'abc' is not a value; write for example 5, -5, 16#FF"], ['70000', '70000 does not fit Longest_Run: a word is -32768 to 65535']]) {
+    await page.locator('.new-value').first().fill(typed);
+    await page.locator('.new-value').first().press('Enter');
+    await page.waitForSelector(`.notice.error:has-text("${told}")`);
+  }
+  await add('M0.0');
+  await shows(4, '2#0');
+  await page.locator('.new-value').nth(4).fill('1');
+  await page.locator('.new-value').nth(4).press('Shift+Enter');
+  await page.waitForSelector('.notice.error span:text-matches("^M0.0 cannot be forced")');
+  await page.click('[aria-label="Remove M0.0"]');
+  await page.locator('.new-value').first().fill('');
+});
+
 test('Write all writes every new value', async () => {
   await page.locator('.new-value').first().fill('16#0010');
   await page.locator('.new-value').nth(2).fill('2.5');

@@ -206,6 +206,20 @@ test('a click on a line shows its executions: the last one in words, its network
   await page.close();
 });
 
+test('what keeps a word so is no question of bits, which is said', async () => {
+  const page = await open(chrome, await start(...kPump));
+  await page.click('#tab-causes');
+  await page.fill('.ask input', 'Longest_Run');
+  await page.click('#ask-why-not');
+  await page.waitForSelector('.notice.error span:text-matches("^Longest_Run .*is not a bit")');
+  await page.fill('.ask input', 'Level low');
+  await page.click('#ask-why-not');
+  await page.waitForSelector('.trail .question:has-text("What keeps Level low")');
+  assert.equal(await page.locator('.trail li').count(), 1);
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
 test('where an address is used is a list of lines, which lead there', async () => {
   const page = await open(chrome, await start(...kPump));
   await row(page, '=      Pump').locator('.operand').click();

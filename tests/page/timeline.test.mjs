@@ -173,7 +173,7 @@ test('dragging in the ruler measures between two cursors', async () => {
   await page.mouse.move(box.x + 500, box.y + 8, { steps: 4 });
   await page.mouse.up();
   await rendered(page);
-  assert.match(await page.textContent('.readout'), /^B − A = [\d.]+ (ms|s|µs)/);
+  await page.waitForFunction(() => /^B − A = [\d.]+ (ms|s|µs)/.test(document.querySelector('.readout').textContent));
   await picture(page, 'timeline_measured');
 });
 
@@ -237,6 +237,11 @@ test('a condition is searched for through the past, and by running on', async ()
   await page.fill('#condition', 'VW0 >');
   await page.press('#condition', 'Enter');
   await page.waitForSelector('.notice.error');
+  for (const none of ['abc', 'VW0']) {
+    await page.fill('#condition', none);
+    await page.press('#condition', 'Enter');
+    await page.waitForSelector(`.notice.error:has-text("'${none}' is not a condition; write for example VW20 > 5")`);
+  }
   assert.equal(await page.locator('.margin.stop').count(), 0);
 });
 

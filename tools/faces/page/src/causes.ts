@@ -1,5 +1,5 @@
 // Why and who: each answer is a step of a trail that one walks back to the cause.
-import { changed, show_pane, state } from './state';
+import { changed, notice, show_pane, state } from './state';
 import { line_of, symbol_named, type Command } from './commands';
 import { command, fetch_chunk_of, go_to, look_at, query, Seen, take_over } from './session';
 import { bring_into_view } from './timeline/view';
@@ -30,7 +30,12 @@ export function ask_why(address = ''): Promise<void> {
 /** What keeps a bit off, or on, and the fewest contacts that would have to change. */
 export async function ask_why_not(address: string): Promise<void> {
   const reply = await command<{ values: Value[] }>(line_of`values ${address}`);
-  const on = Number(reply.json?.values[0]?.number ?? 0) === 1;
+  const value = reply.json?.values[0];
+  if (value?.error === undefined && value?.type !== undefined && value.type !== 'bit') {
+    notice(`${named(address)} is not a bit, which something could keep on or off: 'Why?' says what wrote it`, 'error', 'values');
+    return;
+  }
+  const on = Number(value?.number ?? 0) === 1;
   await ask(`What keeps ${named(address)} ${on ? 'on' : 'off'}?`, on ? line_of`why not not ${address}` : line_of`why not ${address}`);
 }
 

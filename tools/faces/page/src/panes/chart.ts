@@ -1,6 +1,6 @@
 // The status chart, with switches of the inputs and lamps of the outputs above it.
 import { h, type Child, type Part } from '../dom';
-import { line_of, value, word_of } from '../commands';
+import { kValues, line_of, value, word_of } from '../commands';
 import { command, see_values } from '../session';
 import { kFormats, query_of, text_in, type Format } from '../formats';
 import { is_pulsing, kMostHertz, set_hertz, toggle_pulses } from '../pulses';
@@ -51,6 +51,13 @@ async function write_all(): Promise<void> {
   for (const row of rows) await write(row, 'set');
 }
 
+/** What is wrong with a value, of the cell that it was typed into; at the prompt it is of the whole word, `VB0=300`. */
+function said_of_value(error: string, address: string, typed: string): string {
+  if (/: write one address, =, and a value/.test(error)) return `'${typed}' is not ${kValues}`;
+  const range = /: write a value that fits it: (.*)$/.exec(error)?.[1];
+  return range ? `${typed} does not fit ${address}: ${range}` : error.replace(/^'.*' (?=cannot be forced: )/, `${address} `);
+}
+
 async function write(row: ChartRow, how: 'set' | 'force'): Promise<void> {
   const typed = row.new_value.trim();
   if (typed === '') {
@@ -58,6 +65,7 @@ async function write(row: ChartRow, how: 'set' | 'force'): Promise<void> {
     return;
   }
   const reply = await command(how === 'set' ? line_of`set ${row.address}=${value(typed)}` : line_of`force ${row.address}=${value(typed)}`);
+  if (reply.error !== undefined) notice(said_of_value(reply.error, row.address, typed), 'error', how);
   if (reply.error === undefined && row.new_value.trim() === typed) row.new_value = '';
   changed();
 }

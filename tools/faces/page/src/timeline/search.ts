@@ -142,6 +142,7 @@ export async function find_condition(condition: string): Promise<void> {
   const is_wanted = await take_over_at_once(), past = state.past;
   if (!past || !is_wanted()) return;
   const set = await command(line_of`break ${words(condition, kCondition)}`);
+  if (/^break expects |^break .*: when\? /.test(set.error ?? '')) notice(`'${condition.trim()}' is not ${kCondition}`, 'error', 'break');
   const stops = set.error === undefined ? (await query<Stops>(line_of`break`)).json : null;
   if (!stops) return;
   const number = Math.max(...stops.stops.map((one) => one.number));
