@@ -187,8 +187,10 @@ test('the mode switch stops the CPU and starts it', async () => {
 
 test('to power up again is asked first', async () => {
   const page = await open(chrome, plc.address);
+  await rendered(page);
+  const first = await moment(page);
   await page.click('#do-scan');
-  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 0);
+  await page.waitForFunction((was) => parseFloat(document.querySelector('#moment').value) !== was, first);
   const before = await moment(page);
   await page.keyboard.press('Shift+U');
   await page.waitForSelector('[role=dialog] #power-up:focus');

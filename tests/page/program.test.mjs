@@ -60,6 +60,20 @@ test('the status bar says values as listing, ladder and chart do', async () => {
   await page.close();
 });
 
+test('a CALL with parameters shows the values of its inputs', async () => {
+  const program = path.join(kFolder, 'parameters.awl');
+  writeFileSync(program, `ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNetwork 1\nLD     SM0.0\nMOVW   4660, VW0\nCALL   SBR0, VW0, I0.0, VW10\nEND_ORGANIZATION_BLOCK
+SUBROUTINE_BLOCK SBR_0:SBR0\nVAR_INPUT\na:INT;\nb:BOOL;\nEND_VAR\nVAR_OUTPUT\nc:INT;\nEND_VAR\nBEGIN\nNetwork 1\nLD     #b\nMOVW   #a, #c\nEND_SUBROUTINE_BLOCK\n`);
+  const page = await open(chrome, await start(program));
+  await page.click('#do-scan');
+  await page.click('#do-scan');
+  await row(page, 'CALL').locator('.value:has-text("VW0=4660")').waitFor();
+  await row(page, 'CALL').locator('.value:has-text("I0.0=0")').waitFor();
+  await picture(page, 'program_call');
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
 test('further files have their names in the listing, their own line numbers, and are jumped to', async () => {
   const page = await open(chrome, await start(...kPump));
   await page.selectOption('.navigator', { label: kPump[1] });

@@ -3,7 +3,7 @@ import { h, is_press, kept, type Child, type Part } from '../dom';
 import { line_of } from '../commands';
 import { command, fetch_chunk_of, go_to, see_lines, take_over } from '../session';
 import { changed, notice, state } from '../state';
-import { operand_text } from '../formats';
+import { in_formats, operand_text } from '../formats';
 import { duration_text, moment_text } from '../words';
 import type { Execution, Line, Operand, Outline } from '../protocol';
 import { executed_text } from '../timeline/executions';
@@ -109,7 +109,14 @@ function text_of(line: Line, execution: Execution | undefined): Child[] {
   return parts;
 }
 
+/** The inputs of a CALL with parameters are in its words only, `S0=1 VW0=16#0007`; its outputs are not known when it begins. */
+function inputs_of_call(execution: Execution): Part[] {
+  return [...in_formats(execution.text).matchAll(/(\S+)=(\S+)/g)].filter((one) => one[1] !== 'S0')
+    .map((one) => h('span', { class: 'value' }, h('span', { class: 'name' }, `${one[1]!}=`), one[2]!));
+}
+
 function values_of(line: Line, execution: Execution): Part[] {
+  if (line.mnemonic === 'CALL') return inputs_of_call(execution);
   return (line.operands ?? []).flatMap((one, i) => {
     const value = execution.values[i];
     if (one.address === '' || value === null || value === undefined) return [];
