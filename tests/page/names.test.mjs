@@ -130,6 +130,7 @@ async function in_chart(page, text, does) {
   await page.keyboard.press('Escape');
   await page.click('#tab-chart');
   await page.locator('.chart tbody tr').last().locator('[title=Remove]').click();
+  await rendered(page);
 }
 
 test('whatever is typed or in a file is one word of a command: no other command comes of it', async () => {
@@ -171,8 +172,9 @@ test('whatever is typed or in a file is one word of a command: no other command 
     clipboardData.setData('text', text);
     document.querySelector('#add-address').dispatchEvent(new ClipboardEvent('paste', { clipboardData, bubbles: true, cancelable: true }));
   }, rows);
+  await page.waitForFunction((all) => document.querySelectorAll('.chart tbody tr').length === all, kHostile.length + 1);
   await page.click('text=Write all');
-  await page.waitForSelector('.notice.error');
+  await page.waitForSelector(`.notice.error:has-text("'Q0.0; quit' is not a value"):has-text("more were not written")`);
   for (const text of kHostile) {
     await page.click('#tab-line');
     await page.fill('#send-text', text);

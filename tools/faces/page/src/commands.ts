@@ -76,7 +76,7 @@ class Value {
 }
 /** What stands behind `=`. */
 export function value(text: string): Value {
-  return new Value(text.includes("'") ? text.trim() : text.replace(/\s/g, ''));
+  return new Value(text.trim());
 }
 
 export const kAddresses = 'an address or a symbol; write for example Q0.1, VW100 or T37';
@@ -84,11 +84,17 @@ export const kValues = 'a value; write for example 5, -5, 16#FF, 2#1010, or 1.5 
 
 type Piece = string | number | string[] | Words | Value;
 
+/** Numbers may have blanks between their digits: `2#1010 0011`. */
+function value_text(typed: string): { text: string } | { why: string } {
+  const text = typed.includes("'") ? typed : typed.replace(/\s/g, '');
+  return /^[^\s;\x00-\x1f\x7f]+$/.test(text) ? { text } : { why: `'${typed}' is not ${kValues}` };
+}
+
 /** The text of a piece, or why it has none. */
 function text_of(piece: Piece): { text: string } | { why: string } {
   if (typeof piece === 'number') return { text: String(piece) };
   if (piece instanceof Words) return is_of_one_command(piece.text) ? piece : { why: `'${piece.text}' is not ${piece.what}` };
-  if (piece instanceof Value) return /^[^\s;\x00-\x1f\x7f]+$/.test(piece.text) ? piece : { why: `'${piece.text}' is not ${kValues}` };
+  if (piece instanceof Value) return value_text(piece.text);
   const all = typeof piece === 'string' ? [piece] : piece, wrong = all.find((one) => word_of(one) === undefined);
   return wrong === undefined ? { text: all.map(word_of).join(' ') } : { why: `'${wrong}' is not ${kAddresses}` };
 }

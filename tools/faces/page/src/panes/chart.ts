@@ -48,7 +48,9 @@ async function write_all(): Promise<void> {
     notice('Type a new value first');
     return;
   }
-  for (const row of rows) await write(row, 'set');
+  const wrong: string[] = [];
+  for (const row of rows) wrong.push(...await write(row, 'set'));
+  if (wrong.length > 0) notice(wrong[0]! + (wrong.length > 1 ? `; and ${wrong.length - 1} more ${wrong.length === 2 ? 'was' : 'were'} not written` : ''), 'error', 'set');
 }
 
 /** What is wrong with a value, of the cell that it was typed into; at the prompt it is of the whole word, `VB0=300`. */
@@ -58,16 +60,19 @@ function said_of_value(error: string, address: string, typed: string): string {
   return range ? `${typed} does not fit ${address}: ${range}` : error.replace(/^'.*' (?=cannot be forced: )/, `${address} `);
 }
 
-async function write(row: ChartRow, how: 'set' | 'force'): Promise<void> {
+/** Returns what is wrong with it, which is said too. */
+async function write(row: ChartRow, how: 'set' | 'force'): Promise<string[]> {
   const typed = row.new_value.trim();
   if (typed === '') {
     notice(`Type a new value for ${row.address} first`);
-    return;
+    return [];
   }
   const reply = await command(how === 'set' ? line_of`set ${row.address}=${value(typed)}` : line_of`force ${row.address}=${value(typed)}`);
-  if (reply.error !== undefined) notice(said_of_value(reply.error, row.address, typed), 'error', how);
-  if (reply.error === undefined && row.new_value.trim() === typed) row.new_value = '';
+  const wrong = reply.error === undefined ? [] : [said_of_value(reply.error, row.address, typed)];
+  if (wrong.length > 0) notice(wrong[0]!, 'error', how);
+  else if (row.new_value.trim() === typed) row.new_value = '';
   changed();
+  return wrong;
 }
 
 async function toggle_force(row: ChartRow): Promise<void> {
