@@ -6,7 +6,7 @@ import { run } from './running';
 import { ask_why } from './causes';
 import { address_of } from './files';
 import { compare_futures } from './futures';
-import { next_mark, toggle_mark } from './marks';
+import { next_mark, toggle_mark } from './timeline/marks';
 import { can_open } from './playground';
 import { remember, remembered } from './kept';
 import { keys_to, kPanes, type PaneName } from './pane_table';

@@ -4,7 +4,7 @@ import { kProtocol } from './protocol';
 import type { Hello, Line, Notification, Outline, Past, PieceOfRun, Reply, Spans, Status, Stopped, Stops, Value } from './protocol';
 import { line_of, Refused, word_of, words, type Command } from './commands';
 import { query_of } from './formats';
-import { load_marks } from './marks';
+import { load_marks } from './timeline/marks';
 import { forget_pulses } from './pulses';
 import { duration_text, moment_of_link, moment_text, moment_word, written_in_link } from './words';
 

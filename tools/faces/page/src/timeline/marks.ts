@@ -1,6 +1,6 @@
 // Marks of the reader's own on the timeline, kept with the page for each program.
-import { remember, remembered } from './kept';
-import { changed, state } from './state';
+import { remember, remembered } from '../kept';
+import { changed, state } from '../state';
 
 const kMost = 99;
 
