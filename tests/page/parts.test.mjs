@@ -84,11 +84,18 @@ test('what differs is marked from where it is in view to its end, and no further
   assert.deepEqual(rects.filter((one) => one.colour === 'cursor').map(({ x, width }) => [x, width]), [[0, 500]]);
 });
 
-test('the numbers of the ruler make room for cursors and the present', () => {
-  const scale = { from_ns: 0, to_ns: 1000, left: 0, right: 1000 };
-  const of = (cursors) => drawn({ scale, rows: [], width: 1000, height: 200, now_ns: 950, cursors }).texts.find((one) => one.text === '0.4 µs').x;
-  assert.equal(of({ a_ns: null, b_ns: null }), 403.5);
-  assert.ok(of({ a_ns: 405, b_ns: null }) > 405 + 13);
+test('the numbers of the ruler make room for cursors and the present, on the side of them where their line is', () => {
+  const scale = { from_ns: 0, to_ns: 1000, left: 0, right: 1000 }, none = { a_ns: null, b_ns: null };
+  const at = (now_ns, cursors = none) => drawn({ scale, rows: [], width: 1000, height: 200, now_ns, cursors }).texts.find((one) => one.text === '0.4 µs')?.x;
+  const width = 36;
+  assert.equal(at(950), 403.5);
+  assert.ok(at(950, { a_ns: 395, b_ns: null }) > 395 + 13, 'right of a cursor that is left of the line, whose letter covers it');
+  for (const ns of [401, 404, 420]) {
+    const x = at(950, { a_ns: ns, b_ns: null });
+    assert.ok(x > 320 && x + width < 400, `a cursor at ${ns} is right of the line, its number at ${x}`);
+  }
+  for (const ns of [401, 410]) assert.ok(at(ns) + width < Math.min(400, ns - 5), `the present at ${ns}`);
+  assert.equal(at(404, { a_ns: 380, b_ns: null }), undefined, 'there is no room on either side');
 });
 
 test('the name of a network without power flow, which is pale, is dark', () => {

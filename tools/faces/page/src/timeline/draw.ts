@@ -263,11 +263,31 @@ function draw_grid(c: CanvasRenderingContext2D, view: View, theme: Theme): void 
 
 const kFlag = 13, kPointer = 10;  // pixels: what a cursor or mark has in the ruler, and the present
 
-/** What stands in the ruler beside its numbers, which make room for it. */
-function flags_of(view: View): { x: number; end: number }[] {
-  const x = (ns: number): number => x_of(view.scale, ns);
+/** What stands in the ruler beside its numbers, which make room for it: its line, and the pixels that it takes. */
+export interface Flag {
+  line: number;
+  from: number;
+  to: number;
+}
+
+function flags_of(view: View): Flag[] {
   const named = [view.cursors.a_ns, view.cursors.b_ns, ...view.marks].filter((ns): ns is number => ns !== null);
-  return [...named.map((ns) => ({ x: x(ns), end: x(ns) + kFlag })), { x: x(view.now_ns) - kPointer / 2, end: x(view.now_ns) + kPointer / 2 }];
+  const now = x_of(view.scale, view.now_ns);
+  return [...named.map((ns) => x_of(view.scale, ns)).map((x) => ({ line: x, from: x, to: x + kFlag })), { line: now, from: now - kPointer / 2, to: now + kPointer / 2 }];
+}
+
+const kBeside = 3;  // pixels between a line and its number
+
+/** Where the number of a grid line begins: right of the line, left of it if a cursor is in the way there; null where there is no room. */
+export function place_of_number(x: number, width: number, flags: Flag[], from: number, to: number): number | null {
+  const at_line = flags.filter((one) => one.from < x + kBeside && one.to > x - kBeside);
+  const right = Math.max(x, ...at_line.filter((one) => one.line <= x).map((one) => one.to)) + kBeside;
+  const left = Math.min(x, ...at_line.filter((one) => one.line > x).map((one) => one.from)) - kBeside - width;
+  const is_free = (start: number, others: Flag[]): boolean => start >= from && start + width <= to
+    && !others.some((one) => one.from < Math.max(x, start + width) && one.to > Math.min(x, start));
+  if (x + kBeside + width > to) return null;
+  if (is_free(right, flags.filter((one) => !at_line.includes(one) || one.line > x))) return right;
+  return is_free(left, flags.filter((one) => !at_line.includes(one) || one.line < x)) ? left : null;
 }
 
 /** Over the tracks, which move below it. */
@@ -279,10 +299,13 @@ function draw_ruler(c: CanvasRenderingContext2D, view: View, theme: Theme): void
   c.fillStyle = theme['text']!;
   c.beginPath();
   const flags = flags_of(view);
+  let from = view.scale.left;
   for (const { x, text } of marks_of(view.scale)) {
     c.moveTo(x, kRuler - 6); c.lineTo(x, kRuler);
-    const width = c.measureText(text).width, flag = flags.find((one) => one.x < x + 4 + width && one.end > x + 2), start = flag ? flag.end + 3 : x + 3;
-    if (start + width <= view.scale.right && start < x + 60) c.fillText(text, start, kRuler / 2);
+    const width = c.measureText(text).width, start = place_of_number(x, width, flags, from, view.scale.right);
+    if (start === null) continue;
+    c.fillText(text, start, kRuler / 2);
+    from = start + width + kBeside;
   }
   c.stroke();
 }
