@@ -6,6 +6,25 @@ import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { browser, end, moment, open, picture, rendered, view } from './support.mjs';
 
+/** Two timed interrupts come at once: one waits for the other. */
+const kTwoInterrupts = `LD SM0.1
+MOVB 10, SMB34
+MOVB 10, SMB35
+ATCH 0, 10
+ATCH 1, 11
+ENI
+MEND
+INT 0
+LD SM0.0
+INCW VW0
+INCW VW2
+INCW VW4
+RETI
+INT 1
+LD SM0.0
+INCW VW6
+RETI
+`;
 let chrome, plc, page;
 before(async () => {
   [chrome, plc] = await Promise.all([browser(), view('stl_programs/modbus_slave.stl')]);
@@ -387,5 +406,36 @@ test('the watchdog that ends the past is found, and the longest scan however sho
   assert.deepEqual(page.troubles, []);
   await page.close();
   await end(loops.server);
+  rmSync(folder, { recursive: true });
+});
+
+test('the whole reason why an interrupt has waited stands beside the pointer', async () => {
+  const folder = mkdtempSync(path.join(tmpdir(), 's7200-'));
+  writeFileSync(path.join(folder, 'two.stl'), kTwoInterrupts);
+  const both = await view(path.join(folder, 'two.stl')), page = await open(chrome, both.address, { viewport: { width: 1000, height: 650 } });
+  await page.fill('#moment', '101ms');
+  await page.press('#moment', 'Enter');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 100);
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press('Shift+I');
+  await page.waitForSelector('.status-bar .place:has-text("INT 1")');
+  await page.waitForSelector('.track-name:has-text("INT 1")');
+  for (let i = 0; i < 8; ++i) await page.keyboard.press('+');
+  await page.waitForFunction(() => document.querySelector('.readout').textContent.endsWith('µs in view'));
+  const { left, width } = await page.$eval('#timeline', (canvas) => canvas.getBoundingClientRect().toJSON());
+  const y = await page.$eval('.track-name:has-text("INT 1")', (name) => name.getBoundingClientRect().top + 7);
+  for (let i = 0; i < 40 && await page.locator('.tip').isHidden(); ++i) {
+    await page.mouse.move(left + width * (0.99 - i / 100), y);
+    await page.waitForTimeout(100);
+  }
+  assert.match(await page.innerText('.tip'), /^INT 1\nINT 1: event 11 \(timed interrupt 1, SMB35\)\nat [\d.]+ ms\n[\d.]+ µs\nwaited [\d.]+ µs\n.*INT 0/);
+  const tip = await page.locator('.tip').boundingBox();
+  assert.ok(tip.x >= 0 && tip.x + tip.width <= 1000 && tip.y >= 0 && tip.y + tip.height <= 650, JSON.stringify(tip));
+  await picture(page, 'timeline_tip');
+  await page.mouse.move(left + width / 2, 20);
+  await page.waitForSelector('.tip', { state: 'hidden' });
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+  await end(both.server);
   rmSync(folder, { recursive: true });
 });

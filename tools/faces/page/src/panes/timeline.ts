@@ -69,6 +69,22 @@ function tell(): void {
   changed();
 }
 
+const kFromPointer = 12;  // pixels
+
+/** Beside the pointer, all that the line above the tracks has no room for. */
+function place_tip(node: HTMLElement): void {
+  const line = document.querySelector('.readout');
+  node.hidden = told === '' || !pointer || !canvas || !line || line.scrollWidth <= line.clientWidth;
+  if (node.hidden) return;
+  const box = canvas!.getBoundingClientRect(), x = box.left + pointer!.x, y = box.top + pointer!.y, above = y - node.offsetHeight - kFromPointer;
+  node.style.left = `${Math.max(4, Math.min(x + kFromPointer, innerWidth - node.offsetWidth - 4))}px`;
+  node.style.top = `${above >= 4 ? above : y + kFromPointer}px`;
+}
+
+function tip(): Part {
+  return h('div', { class: 'tip', 'aria-hidden': 'true', ref: place_tip }, told.split(' · ').map((line) => h('div', {}, line)));
+}
+
 function point(event: MouseEvent): { x: number; y: number } {
   const box = canvas!.getBoundingClientRect();
   return { x: event.clientX - box.left, y: event.clientY - box.top };
@@ -193,5 +209,5 @@ export function timeline_pane(): Part {
       state.past?.newest_ns === 0 ? h('p', { class: 'empty nothing-yet' }, 'Nothing has run yet: Run, or a step, brings what happens here.') : null,
       h('div', { class: 'track-canvas' }, h('canvas', { id: 'timeline', tabindex: '0', role: 'img', 'aria-label': 'Timeline: plus and minus zoom, arrows move, e finds the next error', ref: paint,
         onwheel: on_wheel, onpointerdown: on_down, onpointermove: on_move, onpointerup: on_up, onpointercancel: () => { drag = null; },
-        onpointerleave: () => { pointer = null; tell(); } }))));
+        onpointerleave: () => { pointer = null; tell(); } }))), tip());
 }
