@@ -282,6 +282,14 @@ test('a damaged character is found from far away', async () => {
   assert.deepEqual(page.troubles, []);
 });
 
+test('the line says how the port is set up at the moment that is looked at', async () => {
+  await page.click('#tab-line');
+  await page.waitForFunction(() => document.querySelector('.port').textContent === 'Port 0: Freeport, 9600 baud, 8 data bits, even parity, 1 stop bit (SMB30 = 16#49 now); what is sent here has the same format');
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press('Home');
+  await page.waitForFunction(() => /^Port 0: PPI slave \(SMB30 = 16#00 now\)/.test(document.querySelector('.port').textContent));
+});
+
 test('what is refused is said in few words, until the next is not; what is sent waits for Run', async () => {
   await page.keyboard.press('Escape');
   await page.evaluate(() => document.activeElement?.blur());

@@ -291,6 +291,12 @@ export interface Done {
   actions: { at_ns: number; text: string; station?: string }[];
 }
 
+/** `port`: its number, and what its control byte says in words. */
+export interface PortSettings {
+  port: number;
+  mode: string;
+}
+
 /** `who`, `why`: in words, and the instruction if it was one. */
 export interface Cause {
   text?: string;

@@ -1,7 +1,7 @@
 // The line: a request to send, and what was asked and answered.
 import { h, type Part } from '../dom';
 import { line_of, words } from '../commands';
-import { command, go_to } from '../session';
+import { command, go_to, query, Seen } from '../session';
 import { changed, notice, rows_shown, state } from '../state';
 import { ask_why_latency, ask_why_unanswered } from '../causes';
 import { list_exchanges, see_exchanges } from '../timeline/view';
@@ -9,7 +9,7 @@ import { exchanges_of, is_overdue, is_unanswered, type Exchange } from '../excha
 import { action, title_with_key } from '../actions';
 import { clock_text, duration_text, moment_text } from '../words';
 import { histogram } from './histogram';
-import type { Hello } from '../protocol';
+import type { Hello, Past, PortSettings } from '../protocol';
 
 let filter = '';
 
@@ -33,6 +33,19 @@ let waiting: { of: Hello | null; at_ns: number; frame: string } | null = null;
 function waiting_row(): Part | null {
   if (!waiting || waiting.of !== state.hello || state.running || waiting.at_ns !== state.past?.now_ns) return null;
   return h('tr', { key: 'waits', class: 'waits' }, h('td', {}, ''), h('td', { class: 'frame' }, waiting.frame), h('td', { class: 'frame' }, 'waits for Run'), h('td', {}, ''));
+}
+
+let port_settings: PortSettings | null = null, port_at: Past | null = null;
+const port = new Seen(async () => { port_settings = (await query<PortSettings>(line_of`port`)).json; });
+
+/** How the port is set up at the moment that is looked at: programs change that. */
+function port_text(): string {
+  if (state.past !== port_at) {
+    port_at = state.past;
+    port.refresh();
+  }
+  const parts = /^(.*?): (.*)$/.exec(port_settings?.mode ?? ''), station = state.past?.station ?? '';
+  return parts ? `${station === '' ? 'Port' : `${station}, port`} ${port_settings!.port}: ${parts[2]} (${parts[1]} now); what is sent here has the same format` : '';
 }
 
 const kExamples = ['01 03 00 0a 00 02 crc', 'read 40011:2', 'write 40011=1234', "'HELLO\\r'"];
@@ -86,6 +99,7 @@ export function line_pane(): Part {
       h('button', { id: 'do-send' }, 'Send')),
     h('datalist', { id: 'requests' }, kExamples.map((one) => h('option', { value: one }))),
     h('p', { class: 'hint send' }, 'Hex, crc for the check, text in quotation marks; or a Modbus request: read 40011:2, write 40011=5'),
+    h('p', { class: 'hint port', title: 'Unless s7200 was started with --baud, --parity, --data-bits or --stop-bits' }, port_text()),
     h('div', { class: 'chart-tools' },
       h('input', { type: 'search', placeholder: 'Filter', 'aria-label': 'Filter', oninput: (event: Event) => { filter = (event.target as HTMLInputElement).value; changed(); } }),
       h('button', { title: title_with_key(action('longest')), onclick: action('longest').does }, 'Longest answer'),
