@@ -46,6 +46,16 @@ test('addresses and symbols have their values, in the format that is chosen', as
   await page.waitForFunction(() => document.querySelectorAll('.chart .wrong').length === 1);
 });
 
+test('there is room for symbols: in the chart, and at the inputs and outputs that have one', async () => {
+  const cut = await page.$$eval('.chart .address', (fields) => fields.filter((one) => one.scrollWidth > one.clientWidth).map((one) => one.value));
+  assert.deepEqual(cut, []);
+  assert.equal(await page.locator('.chart .address').first().getAttribute('title'), 'Longest_Run (VW100)');
+  assert.deepEqual(await page.locator('.point-symbol').allTextContents(), ['Level_High', 'Level low', 'Acknowledge', 'Pump', 'Fault lamp']);
+  const overlapping = await page.$$eval('.points', (all) => all.flatMap((one) => [...one.children].filter((part) => part.getBoundingClientRect().right > one.getBoundingClientRect().right + 1 || part.scrollWidth > part.clientWidth + 1)).length);
+  assert.equal(overlapping, 0);
+  assert.deepEqual(await page.locator('.unnamed .point-name').allTextContents(), ['I0.2', 'I0.3', 'I0.4', 'I0.5', 'I0.6', 'Q0.2', 'Q0.3', 'Q0.4', 'Q0.5', 'Q0.6', 'Q0.7'], 'the rest of the first byte');
+});
+
 test('a new value is written with Enter', async () => {
   await page.locator('.new-value').first().fill('-5');
   await page.locator('.new-value').first().press('Enter');
@@ -198,6 +208,11 @@ test('an analog input is turned with a slider', async () => {
   const slider = page.locator('[aria-label="Analog input AIW4"]');
   await slider.fill('16000');
   await shows(4, '16000');
+  await page.click('[aria-label="Force AIW4"]');
+  await page.waitForSelector('[aria-label="Analog input AIW4"]:disabled');
+  assert.match(await slider.getAttribute('title'), /^AIW4 is forced/);
+  await page.click('[aria-label="Force AIW4"]');
+  await page.waitForSelector('[aria-label="Analog input AIW4"]:enabled');
   await page.click('[aria-label="Remove AIW4"]');
 });
 

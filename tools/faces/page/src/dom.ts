@@ -33,12 +33,12 @@ export function h(tag: string, attributes: Attributes = {}, ...children: Child[]
   return { tag, attributes, children: flat };
 }
 
-/** A part that is made anew only when what it is made of is another one: it may be large. */
-export function kept<Of>(make: (of: Of) => Part): (of: Of) => Part {
-  let last: { of: Of; part: Part } | undefined;
+/** What is made anew only when what it is made of is another one: a part, say, that may be large. */
+export function kept<Of, Made>(make: (of: Of) => Made): (of: Of) => Made {
+  let last: { of: Of; made: Made } | undefined;
   return (of) => {
-    if (last?.of !== of) last = { of, part: make(of) };
-    return last.part;
+    if (last?.of !== of) last = { of, made: make(of) };
+    return last.made;
   };
 }
 

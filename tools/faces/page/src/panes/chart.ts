@@ -1,5 +1,5 @@
 // The status chart, with switches of the inputs and lamps of the outputs above it.
-import { h, type Child, type Part } from '../dom';
+import { h, kept, type Child, type Part } from '../dom';
 import { kValues, line_of, value, word_of } from '../commands';
 import { command, see_values } from '../session';
 import { kFormats, query_of, text_in, type Format } from '../formats';
@@ -8,7 +8,7 @@ import { changed, notice, state, type ChartRow, type PointRow, type SwitchKind }
 import { level_of, switch_to, terminal_level } from '../switches';
 import { remember, remembered } from '../kept';
 import { chart_from, chart_text } from '../status_charts';
-import type { Value } from '../protocol';
+import type { Outline, Value } from '../protocol';
 import { end_watch, open_menu } from './menu';
 import { icon } from '../icons';
 
@@ -120,8 +120,10 @@ async function turn(address: string, number: number): Promise<void> {
   turning = false;
 }
 
-function slider(address: string, number: number): Part {
+/** What is forced stays as it is, whatever comes in. */
+function slider(address: string, number: number, forced: boolean): Part {
   return h('input', { type: 'range', class: 'slider', min: 0, max: kMostAnalog, step: 8, value: String(number), 'aria-label': `Analog input ${address}`,
+    disabled: forced, title: forced ? `${address} is forced: release it with the lock to turn it` : '',
     oninput: (event: Event) => void turn(address, Number((event.target as HTMLInputElement).value)) });
 }
 
@@ -139,7 +141,7 @@ function chart_row(row: ChartRow, i: number): Part {
   const wrong = value?.error ?? (row.address.trim() !== '' && word_of(row.address) === undefined ? 'an address or a symbol, one a row' : undefined);
   return h('tr', { class: forced ? 'forced' : '', key: i },
     h('td', {}, h('input', { class: 'address', 'aria-label': 'Address', value: row.address, spellcheck: 'false', autocomplete: 'off', placeholder: 'Address or symbol',
-      title: value?.symbol ? `${value.symbol} (${value.address})` : '',
+      title: value?.symbol ? `${value.symbol} (${value.address})` : row.address,
       onchange: (event: Event) => { row.address = (event.target as HTMLInputElement).value.trim(); keep(); } })),
     h('td', { class: 'format' }, bit ? 'Bit' : format_choice(row)),
     h('td', { class: `current${bit && Number(value.number) === 1 ? ' on' : ''}`, title: wrong ?? '' },
@@ -152,7 +154,7 @@ function chart_row(row: ChartRow, i: number): Part {
         onclick: () => void toggle_force(row) }, icon('lock')),
       h('button', { class: 'plain', 'aria-label': `Menu of ${row.address}`, title: 'Chart, who, why', onclick: (event: MouseEvent) => open_menu(event, row.address, null) }, '⋯'),
       h('button', { class: 'plain', 'aria-label': `Remove ${row.address}`, title: 'Remove', onclick: () => { state.chart = state.chart.filter((one) => one !== row); keep(); } }, icon('close'))),
-    h('td', {}, is_analog_input(value) ? slider(value!.address, Number(value!.number)) : sparkline(query_of(row.address, row.format))));
+    h('td', {}, is_analog_input(value) ? slider(value!.address, Number(value!.number), forced) : sparkline(query_of(row.address, row.format))));
 }
 
 /** Pasted rows of a status chart, from Micro/WIN or from here. */
@@ -223,7 +225,7 @@ function input_switch(row: PointRow): Part {
   const forced = state.values.get(address)?.forced === true;
   const press = (level: number) => (event: { button?: number }) => { if (kind === 'push' && !event.button) void switch_to(address, level); };
   const name = `${symbol_of(address)} ${kKinds[kind]}; right click or Shift+F10: ${kKinds[next_kind(row)]}`.trim();
-  return h('div', { class: 'point', key: address },
+  return point(address,
     h('button', { class: `switch ${kind}${on ? ' on' : ''}${forced ? ' forced' : ''}`, role: 'switch', 'aria-checked': String(on),
       'aria-label': `Input ${address} ${symbol_of(address)}`.trim(), title: name,
       onclick: (event?: MouseEvent) => { leave_to_keys(event); if (kind === 'switch') void switch_to(address, on ? 0 : 1); else if (kind === 'pulses') void toggle_pulses(row); },
@@ -237,7 +239,7 @@ function input_switch(row: PointRow): Part {
       onkeyup: (event: KeyboardEvent) => { if (event.key === ' ') press(0)({}); },
       oncontextmenu: (event: Event) => { event.preventDefault(); void change_kind(row, true); } },
     kind === 'pulses' ? h('svg', { viewBox: '0 0 34 14', 'aria-hidden': 'true' }, h('path', { d: 'M3 11H8V3H14V11H20V3H26V11H31' })) : h('i', {})),
-    kind === 'pulses' ? hertz_field(row) : null, point_name(address));
+    kind === 'pulses' ? hertz_field(row) : null);
 }
 
 function hertz_field(row: PointRow): Part {
@@ -250,20 +252,28 @@ function hertz_field(row: PointRow): Part {
     } });
 }
 
+/** What the program names bit by bit, its symbols included. */
+const named_points = kept((outline: Outline | null) => new Set([...outline?.points ?? [], ...(outline?.symbols ?? []).map((one) => one.address.toUpperCase())]));
+
+function point(address: string, ...shown: Child[]): Part {
+  return h('div', { class: named_points(state.outline).has(address) ? 'point' : 'point unnamed', key: address }, ...shown, point_name(address));
+}
+
 function point_name(address: string): Part {
-  return h('button', { class: 'plain point-name', title: symbol_of(address) || address, onclick: (event: MouseEvent) => open_menu(event, address, null) }, address);
+  const symbol = symbol_of(address), is_named = named_points(state.outline).has(address);
+  return h('button', { class: 'plain point-name', title: `${symbol} ${address}`.trim() + (is_named ? '' : ': the program does not name it'), onclick: (event: MouseEvent) => open_menu(event, address, null) },
+    address, symbol === '' ? null : h('span', { class: 'point-symbol' }, symbol));
 }
 
 function output_lamp(address: string): Part {
   const on = level_of(address) === 1;
   const forced = state.values.get(address)?.forced === true;
-  return h('div', { class: 'point', key: address },
-    h('span', { class: `bulb${on ? ' on' : ''}${forced ? ' forced' : ''}`, role: 'img', 'aria-label': `Output ${address} ${on ? 'on' : 'off'}${forced ? ', forced' : ''}`, title: symbol_of(address) }),
-    point_name(address));
+  return point(address,
+    h('span', { class: `bulb${on ? ' on' : ''}${forced ? ' forced' : ''}`, role: 'img', 'aria-label': `Output ${address} ${on ? 'on' : 'off'}${forced ? ', forced' : ''}`, title: symbol_of(address) }));
 }
 
-function points(name: string, content: Child[]): Part {
-  return h('div', { class: 'points', role: 'group', 'aria-label': name }, h('span', { class: 'points-name' }, name), ...content);
+function points(name: string, all: string[], content: Child[]): Part {
+  return h('div', { class: all.some(symbol_of) ? 'points with-symbols' : 'points', role: 'group', 'aria-label': name }, h('span', { class: 'points-name' }, name), ...content);
 }
 
 /** What a run stops at beside the breakpoints of the listing. */
@@ -280,8 +290,8 @@ function watches(): Part | null {
 export function chart_pane(): Part {
   const forced = [...state.values.values()].some((value) => value.forced);
   return h('div', { class: 'chart-pane' },
-    points('Inputs', state.inputs.map(input_switch)),
-    points('Outputs', state.outputs.map(output_lamp)),
+    points('Inputs', state.inputs.map((row) => row.address), state.inputs.map(input_switch)),
+    points('Outputs', state.outputs, state.outputs.map(output_lamp)),
     h('div', { class: 'chart-tools' },
       h('button', { onclick: () => void write_all(), title: 'Write all new values' }, 'Write all'),
       h('button', { onclick: () => void command(line_of`unforce all`), disabled: !forced, title: 'Release everything that is forced' }, 'Unforce all'),
