@@ -220,6 +220,12 @@ test('dark, and a phone shows one pane at a time', async () => {
   assert.match(await phone.innerText('.status-bar'), /scan \d+/);
   const wider = await phone.evaluate(() => document.documentElement.scrollWidth > innerWidth);
   assert.equal(wider, false);
+  assert.ok(await phone.isVisible('#do-link'));
+  await phone.click('.pane-tabs >> text=Program');
+  await phone.click('#do-scan');
+  await phone.waitForSelector('.row .value', { state: 'visible' });
+  const { listing, last } = await phone.evaluate(() => ({ listing: document.querySelector('.listing').clientWidth, last: Math.max(...[...document.querySelectorAll('.row .value')].map((one) => one.getBoundingClientRect().right)) }));
+  assert.ok(last > listing - 30 && last <= kPhone.width, `values end at ${last} of ${listing} pixels`);
   await phone.click('#do-why');
   await phone.waitForSelector('#pane-causes .trail', { state: 'visible' });
   await picture(phone, 'frame_phone');
