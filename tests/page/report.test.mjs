@@ -380,13 +380,31 @@ test('of a long list a part is printed, and how many rows are left out', async (
     await page.click(`#tab-${tab}`);
     await page.waitForFunction((all) => document.querySelectorAll('.exchanges tbody tr').length === all, all);
     await print(true);
-    assert.equal(await page.locator('.exchanges tbody tr').count(), 30);
-    assert.ok(await page.isVisible(`.hint:has-text("${left_out}")`), left_out);
+    assert.equal(await page.locator(`[data-of=${tab}] .exchanges tbody tr`).count(), 30);
+    assert.ok(await page.isVisible('[data-of=report] .summary'), 'the summary is printed whatever is in front');
+    assert.ok(await page.isVisible(`[data-of=${tab}] .hint:has-text("${left_out}")`), left_out);
     assert.equal(await page.isVisible('.side form'), false, 'what cannot be typed into is not printed');
     await print(false);
   }
   await print(true);
   assert.match(await page.textContent('.program > header'), /lines \d+ to \d+ of \d+/);
+  await page.end();
+});
+
+test('what all failed scenarios have found is printed, and which inputs are on without colours', async () => {
+  const failing = (name, value) => `- {name: ${name}, steps: [set: {I0.3: 1}, wait: 50ms, memory: {VW20: ${value}}]}\n`;
+  writeFileSync(file('red.yaml'), `program: ${path.resolve(process.env.SOURCE, kSlave)}\nscenarios:\n${failing('first', 7)}${failing('second', 8)}- {name: third, steps: [wait: 1ms]}\n`);
+  s7200(1, 'test', file('red.yaml'), '--report', file('red.html'));
+  const page = await open('red.html');
+  await page.waitForSelector('.run.open');
+  await page.click('#tab-chart');
+  await page.waitForSelector('[aria-label^="Input I0.3"][aria-checked=true]');
+  await page.emulateMedia({ media: 'print' });
+  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  assert.deepEqual(await page.locator('.findings li').allInnerTexts().then((all) => all.map((one) => /VW20 is 0.*(7|8)|(7|8).*0/.test(one))), [true, true]);
+  const levels = await page.$$eval('.switch', (all) => all.slice(0, 5).map((one) => getComputedStyle(one, '::after').content));
+  assert.deepEqual(levels, ['"0"', '"0"', '"0"', '"1"', '"0"']);
+  await picture(page, 'report_of_failures_on_paper');
   await page.end();
 });
 

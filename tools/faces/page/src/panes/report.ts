@@ -41,12 +41,16 @@ function power_ups(number: number, run: ReportedRun): Part | null {
     run.recordings!.map((_, i) => h('option', { value: String(i), selected: state.recording === i }, `${i + 1} of ${count}`))));
 }
 
+function verdict(number: number, run: ReportedRun): Child[] {
+  return [run.reason ? h('p', {}, run.reason) : null,
+    run.findings.length > 0 ? h('ol', { class: 'findings' }, run.findings.map((one, i) => finding(number, one, i))) : null];
+}
+
 /** What is said of the run that is open. */
 function details(number: number, run: ReportedRun): Part {
   return h('div', { class: 'run-details' },
-    run.reason ? h('p', {}, run.reason) : null,
     power_ups(number, run),
-    run.findings.length > 0 ? h('ol', { class: 'findings' }, run.findings.map((one, i) => finding(number, one, i))) : null,
+    verdict(number, run),
     can_be_opened(run) ? what_came(run.recordings?.[state.recording ?? 0]) : h('p', { class: 'hint' }, 'Its run is not in the report: it is of several tables of times, of a slave outside the simulation, or of a scenario that switches power or cuts a cable of a system.'));
 }
 
@@ -55,7 +59,7 @@ function row(report: Report, number: number): Part {
   return h('li', { key: number, class: `run ${run.outcome.replace(' ', '-')}${open ? ' open' : ''}` },
     h('button', { class: 'plain run-name', 'aria-expanded': String(open), 'aria-label': `${run.name}, ${run.outcome}`, onclick: () => choose_run(number) },
       h('span', { class: 'mark', 'aria-hidden': 'true' }, kMarks[run.outcome] ?? ''), h('span', {}, run.name)),
-    open ? details(number, run) : null);
+    open ? details(number, run) : state.printing && run.outcome === 'failed' ? h('div', { class: 'run-details' }, verdict(number, run)) : null);
 }
 
 function scenarios(report: Report): Part {

@@ -28,6 +28,15 @@ const kOffered = 500;
 const symbols = kept((outline: Outline | null): Part =>
   h('datalist', { id: 'symbols' }, (outline?.symbols ?? []).slice(0, kOffered).map((one) => h('option', { value: one.name }, `${one.address}  ${one.comment}`))));
 
+function content(pane: SideName): Part {
+  return h('div', { class: 'scrolls', key: pane, 'data-of': pane }, kContents[pane]());
+}
+
+/** A report is printed whatever is in front. */
+function on_paper(shown: SideName): Part[] {
+  return [...(state.report && shown !== 'report' ? [content('report'), h('h2', {}, kSides.find((one) => one.pane === shown)!.name)] : []), content(shown)];
+}
+
 export function side_pane(): Part {
   const sides = kSides.filter((one) => one.pane !== 'report' || state.report !== null);
   const shown = sides.find((one) => one.pane === state.side)!;
@@ -35,5 +44,5 @@ export function side_pane(): Part {
     h('header', { role: 'tablist', onkeydown: (event: KeyboardEvent) => on_key(event, sides.map((one) => one.pane), shown.pane) }, sides.map((one) => h('button', {
       role: 'tab', id: `tab-${one.pane}`, 'aria-selected': String(one.pane === shown.pane), tabindex: one.pane === shown.pane ? '0' : '-1', onclick: () => show_pane(one.pane),
     }, one.name))),
-    h('div', { class: 'scrolls', key: shown.pane }, kContents[shown.pane]()), symbols(state.outline));
+    state.printing ? on_paper(shown.pane) : content(shown.pane), symbols(state.outline));
 }
