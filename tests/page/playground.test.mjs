@@ -174,6 +174,41 @@ test('a system that is dropped is refused, and nothing else is lost', async () =
   await page.close();
 });
 
+/** A program whose first instruction is in that line. */
+const program_from = (line, text) => `${'// a word about it\n'.repeat(line - 1)}${text}`;
+
+test('another program replaces the one before with its tables, and says so; what ran before has ended', async () => {
+  const page = await open();
+  await drop(page, ...['pump_symbols.txt', 'pump.awl', 'pump_data.txt'].map(exported));
+  await page.waitForSelector('.row:has-text("Drain pump")');
+  await page.click('#do-run');
+  await scans(page);
+  await drop(page, { name: 'valve.txt', text: program_from(200, 'NETWORK 1\nLD     I1.3\nMOVB   VW100, VB2\n=      Q1.1\nMEND\n') });
+  await page.waitForSelector('.diagnostics .error');
+  assert.deepEqual(await page.locator('.file').allTextContents(), ['valve.txt']);
+  await page.waitForFunction(() => document.querySelector('#do-run').textContent === 'Run');
+  const stopped = await page.textContent('.scan-number');
+  await page.waitForTimeout(500);
+  assert.equal(await page.textContent('.scan-number'), stopped, 'the pump does not run behind the mistakes');
+  await page.fill('.opener textarea', program_from(200, 'NETWORK 1\nLD     I1.3\n=      Q1.1\nMEND\n'));
+  await page.click('#check-and-run');
+  await page.waitForSelector('.row.here:has-text("LD     I1.3")');
+  await page.waitForSelector('[aria-label="Input I1.3"]');
+  assert.deepEqual(await page.locator('.point:not(.unnamed) .point-name').allTextContents(), ['I1.3', 'Q1.1'], 'nothing of the pump');
+  await drop(page, exported('pump.awl'), exported('pump_symbols.txt'));
+  await page.waitForSelector('.notice:has-text("pump.awl replaces valve.txt; Edit leads back")');
+  await drop(page, exported('pump_data.txt'));
+  await page.waitForSelector('.navigator option:has-text("pump_data.txt")', { state: 'attached' });
+  await page.waitForSelector('.row');
+  await page.click('#open-program');
+  await page.waitForSelector('.file');
+  assert.deepEqual(await page.locator('.file').allTextContents(), ['pump.awl', 'pump_symbols.txt', 'pump_data.txt'], 'a table comes to its program');
+  await page.click('#take-back');
+  await page.waitForSelector('.row.here:has-text("LD     I1.3")');
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
 test('the licences of what the engine is linked with are in About', async () => {
   const page = await open();
   await page.click('.program-name');
@@ -188,7 +223,7 @@ test('an address carries a small program and a moment', async () => {
   await page.click('#check-and-run');
   await page.waitForSelector('.row');
   for (let i = 0; i < 5; ++i) await page.click('#do-scan');
-  await scans(page);
+  await page.waitForFunction(() => document.querySelector('.scan-number').textContent === 'scan 6');  // all of them
   const there = await moment(page);
   await page.evaluate(() => document.activeElement.blur());
   await page.keyboard.press('l');

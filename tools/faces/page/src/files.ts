@@ -17,9 +17,14 @@ export async function sources_of(files: Iterable<File>): Promise<Source[]> {
   return all.sort((a, b) => rank(a) - rank(b));
 }
 
+/** By its name, or by the lines in it: published ones are text files, or pages. */
+export function is_program(source: Source): boolean {
+  return /\.(awl|stl)$/i.test(source.name) || /^\s*(?:<[^>]*>\s*)*(?:NETWORK\s+\d|NETWORK\s*(?:\/\/.*)?$|ORGANIZATION_BLOCK\b|LDN?\s+[A-Z"#])/im.test(source.text);
+}
+
 /** The program first, then what belongs to it. */
 function rank(source: Source): number {
-  return /\.(awl|stl)$/i.test(source.name) ? 0 : /NETWORK|ORGANIZATION_BLOCK|^\s*LDN?\s/m.test(source.text) ? 1 : 2;
+  return /\.(awl|stl)$/i.test(source.name) ? 0 : is_program(source) ? 1 : 2;
 }
 
 async function through(stream: CompressionStream | DecompressionStream, bytes: Uint8Array): Promise<Uint8Array> {

@@ -1,7 +1,7 @@
 // What the playground shows before there is a program, or while it has mistakes: files, text, and what check says.
 import { h, type Part } from '../dom';
 import { icon } from '../icons';
-import { open_program, use_sources } from '../playground';
+import { names_of_replaced, open_program, take_back_replaced, use_sources } from '../playground';
 import { sources_of } from '../files';
 import { changed, state } from '../state';
 
@@ -71,6 +71,7 @@ export function opener(): Part {
       h('button', { onclick: () => document.querySelector<HTMLInputElement>('#choose-files')?.click() }, 'Choose files …'),
       state.sources.length === 0 ? h('button', { onclick: () => { type_program(kExample); changed(); } }, 'Example') : null,
       state.sources.map((one) => file(one.name)),
+      names_of_replaced() === '' ? null : h('button', { id: 'take-back', onclick: take_back_replaced }, `Back to ${names_of_replaced()}`),
       h('select', { 'aria-label': 'PLC type', onchange: (event: Event) => { state.cpu = (event.target as HTMLSelectElement).value; } },
         h('option', { value: '', selected: state.cpu === '' }, 'PLC type: found'), kCpus.map((cpu) => h('option', { value: cpu, selected: state.cpu === cpu }, `CPU ${cpu}`))),
       h('button', { id: 'check-and-run', onclick: () => void open_program() }, icon('run'), 'Check and run')),
