@@ -183,6 +183,18 @@ test('an answer to a request before the part that is looked at is no request', (
   assert.deepEqual(master.map((one) => [one.sent, one.answer]), [[true, '01 06: written']]);
 });
 
+test('what all PLCs of a line hear is one request: of the one that answers', () => {
+  const of = (station, ...spans) => ({ kind: 'frames', name: 'port 0 frames', station, exact: true, spans });
+  const two = '02 03: station 2: read holding registers', answer = '02 03 04 00 00 aa bb', nine = '09 03: station 9: read holding registers';
+  const hears = (station) => of(station, frame(`received ${two}`, 10, 20), frame(`received ${answer}: station 2: read holding registers`, 50, 60), frame(`received ${nine}`, 100, 110));
+  const slave2 = of('slave2', frame(`received ${two}`, 10, 20), frame(`sent ${answer}: 2 registers`, 50, 60), frame(`received ${nine}`, 100, 110));
+  const seen = (...tracks) => parts.exchanges_of({ from_ns: 0, to_ns: 5e9, tracks }, 5e9).map((one) => [one.at_ns, one.asker, one.station, one.answer?.slice(0, 5), one.others]);
+  assert.deepEqual(seen(hears('slave1'), slave2, hears('slave3')), [[10, undefined, 'slave2', '02 03', 2], [100, undefined, 'slave1', undefined, 2]]);
+  const master = of('master', frame(`sent ${two}`, 10, 20), frame(`received ${answer}: 2 registers`, 50, 60), frame(`sent ${nine}`, 100, 110));
+  assert.deepEqual(seen(master, hears('slave1'), slave2), [[10, 'master', 'slave2', '02 03', 1], [100, 'master', 'slave1', undefined, 1]]);
+  assert.deepEqual(seen(master), [[10, undefined, 'master', '02 03', undefined], [100, undefined, 'master', undefined, undefined]]);
+});
+
 test('what is wrong with an element is said once', () => {
   const track = { kind: 'events', name: 'events', exact: true, spans: [] }, lost = 'INT 10 LOST: its queue is full';
   const say = (error) => parts.span_text(track, { text: lost, at_ns: 0, end_ns: 0, error });

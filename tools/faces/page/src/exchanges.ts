@@ -16,6 +16,10 @@ export interface Exchange {
   overdue?: boolean;
   /** When the next request came. */
   next_at_ns?: number;
+  /** The PLC that asks, if it is one. */
+  asker?: string;
+  /** How many other PLCs of the line heard it, none of which answers. */
+  others?: number;
 }
 
 const kAwaited = 1e9;  // ns for which a request without an answer may still get one
@@ -43,6 +47,33 @@ function answers_earlier(frame: Span): boolean {
 function without_first_answer(all: Exchange[]): Exchange[] {
   const [first, second] = all;
   return first?.sent && first.answer === undefined && second && !second.sent ? all.slice(1) : all;
+}
+
+/** A frame on the line, whoever sends or hears it. */
+function on_line(frame: { at_ns: number; end_ns: number }, words: string): string {
+  return `${frame.at_ns} ${frame.end_ns} ${words.split(':', 1)[0]}`;
+}
+
+/**
+ * What all PLCs of a line hear is one request: of the one that answers; else of one to which it came damaged, or of the first. What
+ * one of them answers is heard by the others, and asks nobody.
+ */
+function of_lines(all: Exchange[]): Exchange[] {
+  const answers = new Set(all.flatMap((one) => (one.sent || one.answer === undefined ? [] : [on_line({ at_ns: one.end_ns + one.latency_ns!, end_ns: one.answer_end_ns! }, one.answer)])));
+  const requests = new Map<string, Exchange[]>();
+  for (const one of all) {
+    const key = on_line(one, one.request);
+    if (one.sent || !answers.has(key)) requests.set(key, [...requests.get(key) ?? [], one]);
+  }
+  return [...requests.values()].flatMap(once);
+}
+
+/** Of the ends of one request on a line those that tell most of it. */
+function once(same: Exchange[]): Exchange[] {
+  const asker = same.find((one) => one.sent), heard = same.filter((one) => !one.sent), answered = heard.filter((one) => one.answer !== undefined);
+  if (heard.length === 0) return same;
+  const shown = answered.length > 0 ? answered : [heard.find((one) => one.error !== undefined) ?? heard[0]!];
+  return shown.map((one) => ({ ...one, ...(asker ? { asker: asker.station } : {}), ...(heard.length > shown.length ? { others: heard.length - shown.length } : {}) }));
 }
 
 /**
@@ -75,9 +106,9 @@ export function exchanges_of(spans: Spans | null, known_ns: number): Exchange[] 
     if (open?.pending && known_ns - open.end_ns > kOverdue) open.overdue = true;
     all.push(...(spans!.from_ns > 0 ? without_first_answer(of_track) : of_track));
   }
-  all.sort((a, b) => a.at_ns - b.at_ns);
-  all.slice(1).forEach((next, i) => { all[i]!.next_at_ns = next.at_ns; });
-  return all;
+  const requests = of_lines(all).sort((a, b) => a.at_ns - b.at_ns);
+  requests.slice(1).forEach((next, i) => { requests[i]!.next_at_ns = next.at_ns; });
+  return requests;
 }
 
 /** Whether it may still be answered, and one may ask why it is not yet. */

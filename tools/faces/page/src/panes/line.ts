@@ -50,14 +50,21 @@ function port_text(): string {
 
 const kExamples = ['01 03 00 0a 00 02 crc', 'read 40011:2', 'write 40011=1234', "'HELLO\\r'"];
 
+/** What nobody answers is shown of one of those that have heard it. */
+function asked_text(one: Exchange): string {
+  if (one.sent) return `${one.station} asks`;
+  if (one.answer === undefined && one.others) return `${one.asker === undefined ? '' : `${one.asker} asks: `}${one.others + 1} PLCs hear it`;
+  return one.asker === undefined ? `${one.station} is asked` : `${one.asker} asks ${one.station}`;
+}
+
 function row(one: Exchange, i: number): Part {
   const unanswered = is_unanswered(one) || is_overdue(one);
-  const result = one.error ?? one.answer ?? (one.pending ? 'under way …' : 'no answer');
+  const result = one.error ?? one.answer ?? (one.pending ? 'under way …' : one.others ? 'no PLC answers' : 'no answer');
   const why = unanswered ? { title: 'What kept the program from an answer', ask: () => void ask_why_unanswered(one) }
     : one.answer_end_ns === undefined || one.sent ? null : { title: 'What the answer waited for', ask: () => void ask_why_latency(one.request, one.answer_end_ns!, one.station) };
   return h('tr', { key: i, class: one.error !== undefined || is_unanswered(one) ? 'trouble' : '', onclick: () => void go_to(one.at_ns) },
     h('td', {}, h('button', { class: 'link', title: 'Go to this request' }, moment_text(one.at_ns))),
-    h('td', { class: 'frame' }, one.station === '' ? null : h('div', { class: 'asked' }, `${one.station} ${one.sent ? 'asks' : 'is asked'}`),
+    h('td', { class: 'frame' }, one.station === '' ? null : h('div', { class: 'asked', title: one.others ? `${one.others} more ${one.others === 1 ? 'PLC has' : 'PLCs have'} heard it` : '' }, asked_text(one)),
       h('div', { class: 'frame-text', title: one.request }, one.request)), h('td', { class: 'frame' }, result, why ? h('button', { class: 'why', title: why.title, onclick: (event: Event) => { event.stopPropagation(); why.ask(); } }, 'Why?') : null),
     h('td', { class: 'number' }, one.latency_ns === undefined ? '' : duration_text(one.latency_ns)));
 }
