@@ -82,6 +82,9 @@ test('what differs is marked from where it is in view to its end, and no further
   const rows = parts.rows_of({ tracks: [{ kind: 'value', name: 'Q0.0', exact: true, spans }] }, 0);
   const { rects } = drawn({ scale: { from_ns: 0, to_ns: 100, left: 0, right: 1000 }, rows, width: 1000, height: 200 });
   assert.deepEqual(rects.filter((one) => one.colour === 'cursor').map(({ x, width }) => [x, width]), [[0, 500]]);
+  const [row] = rows, ended = [{ ...row, track: { ...row.track, spans: [{ ...spans[0], differs_until_ns: 20 }, spans[1]] } }];
+  assert.deepEqual(drawn({ scale: { from_ns: 0, to_ns: 100, left: 0, right: 1000 }, rows: ended, width: 1000, height: 200 }).rects.filter((one) => one.colour === 'cursor').map(({ x, width }) => [x, width]), [[0, 200]],
+    'to the end of the other future');
 });
 
 test('the numbers of the ruler make room for cursors and the present, on the side of them where their line is', () => {
@@ -181,6 +184,11 @@ test('an answer to a request before the part that is looked at is no request', (
   }
   const master = parts.exchanges_of(part(frame('sent 01 06: station 1: write single register', 10, 20), frame('received 01 06: written', 30, 40)), 100);
   assert.deepEqual(master.map((one) => [one.sent, one.answer]), [[true, '01 06: written']]);
+});
+
+test('a frame that is text has it beside its bytes', () => {
+  assert.equal(parts.with_text('48 45 4c 4c 4f 0d'), "48 45 4c 4c 4f 0d  'HELLO\\r'");
+  for (const other of ['01 03 00 0a', '4f', '48 49: station 72: function 73', '']) assert.equal(parts.with_text(other), other);
 });
 
 test('what all PLCs of a line hear is one request: of the one that answers', () => {

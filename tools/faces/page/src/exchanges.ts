@@ -111,6 +111,17 @@ export function exchanges_of(spans: Spans | null, known_ns: number): Exchange[] 
   return requests;
 }
 
+const kShortestText = 2;  // characters
+const kEscapes: Record<number, string> = { 9: '\\t', 10: '\\n', 13: '\\r' };
+
+/** `48 45 4c 4c 4f 0d` with `'HELLO\r'` beside it, if all of it is text and nothing else is said of it. */
+export function with_text(frame: string): string {
+  if (!/^[0-9a-f]{2}( [0-9a-f]{2})*$/.test(frame)) return frame;
+  const bytes = frame.split(' ').map((one) => parseInt(one, 16));
+  if (bytes.length < kShortestText || !bytes.every((one) => (one >= 0x20 && one < 0x7f) || kEscapes[one] !== undefined)) return frame;
+  return `${frame}  '${bytes.map((one) => kEscapes[one] ?? String.fromCharCode(one)).join('')}'`;
+}
+
 /** Whether it may still be answered, and one may ask why it is not yet. */
 export function is_overdue(one: Exchange): boolean {
   return one.answer === undefined && one.overdue === true;

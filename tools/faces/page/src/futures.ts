@@ -90,7 +90,7 @@ function differs_from(other: SpanTrack | undefined, track: SpanTrack, from_ns: n
 function marked(track: SpanTrack, other: SpanTrack | undefined, from_ns: number, to_ns: number): Span[] {
   if (other && !(track.exact && other.exact)) return track.spans;
   const differs = differs_from(other, track, from_ns, to_ns);
-  return track.spans.map((one) => (differs(one) ? { ...one, differs: true } : one));
+  return track.spans.map((one) => (differs(one) ? { ...one, differs: true, differs_until_ns: to_ns } : one));
 }
 
 const same = (a: SpanTrack) => (b: SpanTrack): boolean => a.name === b.name && a.station === b.station;

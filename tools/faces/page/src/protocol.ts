@@ -209,6 +209,8 @@ export interface Value {
 export interface Span {
   /** Of the page itself: another future does not have it. */
   differs?: boolean;
+  /** And up to when it is known to: the other future ends there. */
+  differs_until_ns?: number;
   at_ns: number;
   end_ns: number;
   text: string;

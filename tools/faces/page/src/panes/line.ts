@@ -5,7 +5,7 @@ import { command, go_to, query, Seen } from '../session';
 import { changed, notice, rows_shown, state } from '../state';
 import { ask_why_latency, ask_why_unanswered } from '../causes';
 import { list_exchanges, see_exchanges } from '../timeline/view';
-import { exchanges_of, is_overdue, is_unanswered, type Exchange } from '../exchanges';
+import { exchanges_of, is_overdue, is_unanswered, with_text, type Exchange } from '../exchanges';
 import { action, title_with_key } from '../actions';
 import { clock_text, duration_text, moment_text } from '../words';
 import { histogram } from './histogram';
@@ -59,13 +59,13 @@ function asked_text(one: Exchange): string {
 
 function row(one: Exchange, i: number): Part {
   const unanswered = is_unanswered(one) || is_overdue(one);
-  const result = one.error ?? one.answer ?? (one.pending ? 'under way …' : one.others ? 'no PLC answers' : 'no answer');
+  const result = one.error ?? (one.answer === undefined ? undefined : with_text(one.answer)) ?? (one.pending ? 'under way …' : one.others ? 'no PLC answers' : 'no answer');
   const why = unanswered ? { title: 'What kept the program from an answer', ask: () => void ask_why_unanswered(one) }
     : one.answer_end_ns === undefined || one.sent ? null : { title: 'What the answer waited for', ask: () => void ask_why_latency(one.request, one.answer_end_ns!, one.station) };
   return h('tr', { key: i, class: one.error !== undefined || is_unanswered(one) ? 'trouble' : '', onclick: () => void go_to(one.at_ns) },
     h('td', {}, h('button', { class: 'link', title: 'Go to this request' }, moment_text(one.at_ns))),
     h('td', { class: 'frame' }, one.station === '' ? null : h('div', { class: 'asked', title: one.others ? `${one.others} more ${one.others === 1 ? 'PLC has' : 'PLCs have'} heard it` : '' }, asked_text(one)),
-      h('div', { class: 'frame-text', title: one.request }, one.request)), h('td', { class: 'frame' }, result, why ? h('button', { class: 'why', title: why.title, onclick: (event: Event) => { event.stopPropagation(); why.ask(); } }, 'Why?') : null),
+      h('div', { class: 'frame-text', title: one.request }, with_text(one.request))), h('td', { class: 'frame' }, result, why ? h('button', { class: 'why', title: why.title, onclick: (event: Event) => { event.stopPropagation(); why.ask(); } }, 'Why?') : null),
     h('td', { class: 'number' }, one.latency_ns === undefined ? '' : duration_text(one.latency_ns)));
 }
 

@@ -107,7 +107,7 @@ function draw_spans(c: CanvasRenderingContext2D, view: View, row: Row, theme: Th
     const wrong = one.error !== undefined || (one.errors ?? 0) > 0;
     if (wrong) trouble.push([x, Math.max(2, several ? 2 : width)]);
     if (view.is_of_line?.(track, one)) of_line.push([x, Math.max(4, width)]);
-    if (one.differs) differs.push([x, Math.max(2, width)]);
+    if (one.differs) differs.push(difference_of(scale, one));
     if (one.occurred_ns !== undefined && !several && one.at_ns > one.occurred_ns) waited.push(one);
     if (one.end_ns === one.at_ns) {
       c.fillStyle = colour_of(track, one, theme);
@@ -142,6 +142,12 @@ function draw_spans(c: CanvasRenderingContext2D, view: View, row: Row, theme: Th
   draw_differences(c, row, differs, theme);
   c.fillStyle = theme['now']!;
   for (const [x, width] of of_line) c.fillRect(x, top - kGap + 1, width, kGap);
+}
+
+/** From where to how many pixels further an element differs, of what is in view. */
+function difference_of(scale: Scale, one: Span): [number, number] {
+  const x = Math.max(scale.left, x_of(scale, one.at_ns)), end = x_of(scale, Math.min(one.end_ns, one.differs_until_ns ?? Infinity));
+  return [x, Math.max(2, Math.min(scale.right, end) - x)];
 }
 
 /** A line below what only one of two futures has. */
@@ -212,11 +218,7 @@ function draw_value(c: CanvasRenderingContext2D, view: View, row: Row, theme: Th
     least = Math.min(least, one.least ?? one.value ?? 0);
     most = Math.max(most, one.most ?? one.value ?? 0);
   }
-  const differs: [number, number][] = track.spans.slice(first, last).filter((one) => one.differs)
-    .map((one) => {
-      const x = Math.max(scale.left, x_of(scale, one.at_ns));
-      return [x, Math.max(2, Math.min(scale.right, x_of(scale, one.end_ns)) - x)];
-    });
+  const differs = track.spans.slice(first, last).filter((one) => one.differs).map((one) => difference_of(scale, one));
   draw_differences(c, row, differs, theme);
   const bit = is_bit(track);
   if (bit) { least = 0; most = 1; }
