@@ -4,7 +4,7 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { browser, end, moment, open, view } from './support.mjs';
+import { browser, end, moment, open, picture, view } from './support.mjs';
 
 const kProgram = 'LD SM0.0\nMOVW 7, VW0\nMEND\n';
 const kScenarios = `program: red.stl
@@ -32,6 +32,11 @@ after(async () => {
 test('a failed scenario is opened where it failed, and why says what wrote the value', async () => {
   const page = await open(chrome, plc.address);
   assert.match(await page.textContent('.program-name'), /it is red/);
+  await page.waitForSelector('#pane-causes');
+  assert.match(await page.innerText('.trail .question'), /^'it is red' fails in .*red\.yaml:7/);
+  assert.match(await page.innerText('.trail pre'), /^VW0 is 7, expected 5; last written at [\d.]+ ms by MOVW 7, VW0 in line 2$/);
+  await page.locator('.trail pre .link').last().waitFor();
+  await picture(page, 'scenario');
   const at = await moment(page);
   assert.ok(at > 45 && at < 80, `${at} ms`);
   await page.click('#do-why');

@@ -31,7 +31,11 @@ int view_scenario(const CLI::App& verb, const WantedScenario& wanted, bool files
   setup.why_no_files = kWhyNoFiles;
   fmt::print(stderr, "{}", one->heading());
   page::serve(std::move(server), history,
-              {.session = std::move(setup), .program = one->name(), .failed = one->failed_memory()}, flags, [](auto) {});
+              {.session = std::move(setup),
+               .program = one->name(),
+               .failed = one->failed_memory(),
+               .found = one->has_failed() ? one->heading() : ""},
+              flags, [](auto) {});
   return kFine;
 }
 

@@ -40,6 +40,7 @@ class OpenedScenario {
   PlaceInRun place() const;
   /// Memory that was not as expected, if that is what it found first.
   std::vector<MemoryRange> failed_memory() const;
+  bool has_failed() const { return !result_.findings.empty(); }
   /// What it found, in lines.
   std::string heading() const;
   const std::string& name() const { return scenario_->name; }

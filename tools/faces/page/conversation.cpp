@@ -78,6 +78,7 @@ void Conversation::greet(Client client) const {
   hello["live"] = settings_.live;
   hello["now"] = moments_json(session_);
   if (runs_ > 0 || runner_) hello["running"] = running_;
+  if (!settings_.found.empty()) hello["found"] = settings_.found;
   post_.to(client, message_of(hello));
 }
 

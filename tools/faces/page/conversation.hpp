@@ -30,6 +30,7 @@ struct PageSettings {
   std::string program{};  ///< the name of what is shown
   bool live = false;      ///< a run follows the clock
   std::vector<MemoryRange> failed{};  ///< that was not as expected where the session stands, which `why` is about there
+  std::string found{};    ///< what a scenario has found where the session stands, in lines; empty if it is none that failed
   /// Ends a run that follows the clock when it becomes true, so that what was asked meanwhile can be carried out; null if
   /// nobody asks.
   const std::atomic<bool>* pause = nullptr;

@@ -43,6 +43,8 @@ export interface Hello {
   now: Past;
   /** The command by which a run goes on. */
   running?: string;
+  /** What a scenario has found where the session stands, in lines. */
+  found?: string;
 }
 
 export type Notification =

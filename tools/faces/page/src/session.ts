@@ -1,5 +1,5 @@
 // What the page does with its session: commands, and the queries about what is seen, asked anew whenever it has moved.
-import { changed, notice, state, the_engine, type Watch } from './state';
+import { changed, notice, show_pane, state, the_engine, type Watch } from './state';
 import { kProtocol } from './protocol';
 import type { Hello, Line, Notification, Outline, Past, PieceOfRun, Reply, Spans, Status, Stopped, Stops, Value } from './protocol';
 import { line_of, Refused, word_of, words, type Command } from './commands';
@@ -374,6 +374,14 @@ function others_run(goes_on: boolean): void {
   state.running = goes_on;
 }
 
+/** What a scenario has found begins the trail that leads to its cause. */
+function show_found({ found, now }: Hello): void {
+  if (found === undefined || state.trail.length > 0) return;
+  const [question = '', ...text] = found.trimEnd().split('\n');
+  state.trail = [{ question, at_ns: now.now_ns, text: text.map((line) => line.trim()).join('\n'), cause: null }];
+  show_pane('causes');
+}
+
 export function notified(note: Notification): void {
   switch (note.event) {
     case 'hello':
@@ -386,6 +394,7 @@ export function notified(note: Notification): void {
       state.hello = note;
       state.past = note.now;
       others_run(note.running !== undefined);
+      show_found(note);
       load_marks();
       void get_acquainted().then(go_to_begin);
       break;
