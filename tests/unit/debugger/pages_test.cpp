@@ -217,6 +217,28 @@ TEST(Pages, SeeInterruptsFromOccurrenceToService) {
   EXPECT_TRUE(has(reply.text, "INT 0"));
 }
 
+/// Characters wait until I0.0 enables interrupts.
+TEST(Pages, SeeHowManyInterruptsWaitInEachQueue) {
+  Asked session("LD SM0.1\nMOVB 9, SMB30\nATCH 0, 8\nLD I0.0\nENI\nMEND\nINT 0\nLD SM0.0\nINCW VW0\nRETI\n");
+  session("continue 10ms");
+  session("send 41 42 43");
+  session("continue 10ms");
+  session("input I0.0=1");
+  session("continue 5ms");
+  const auto waiting = [](const Json& spans) {
+    std::vector<int> numbers;
+    const Json waits = track(spans, "queues", "port queue");
+    for (const Json& one : waits["spans"]) numbers.push_back(one["value"]);
+    return numbers;
+  };
+  const Json whole = session.json("spans start end");
+  EXPECT_EQ(waiting(whole), (std::vector{0, 1, 2, 3, 2, 1, 0}));
+  EXPECT_TRUE(track(whole, "queues", "timed queue").empty());
+  EXPECT_EQ(waiting(session.json("spans 13ms end")), (std::vector{2, 3, 2, 1, 0}));
+  const Json joined = track(session.json("spans start end 3"), "queues", "port queue")["spans"];
+  EXPECT_TRUE(std::ranges::any_of(joined, [](const Json& one) { return one.value("most", 0) == 3; })) << joined;
+}
+
 TEST(Pages, SeeScansRoutinesAndNetworksAndWatchedValues) {
   Asked session(kNested);
   session("continue 12ms");
@@ -365,7 +387,7 @@ TEST(Pages, SeeALongPartWithoutRoutinesAndLoseNoScan) {
   Asked session(kNested);
   session("continue 30s");
   const Json spans = session.json("spans start end 100");
-  EXPECT_EQ(spans["left_out"], Json::array({"routines", "networks"}));
+  EXPECT_EQ(spans["left_out"], Json::array({"queues", "routines", "networks"}));
   const Json scans = track(spans, "scans", "scans");
   EXPECT_LE(scans["spans"].size(), 100U);
   std::uint64_t count = 0;

@@ -28,8 +28,8 @@ namespace s7200::tools {
 namespace {
 
 /// Of each TrackKind.
-constexpr std::array<std::string_view, 9> kWords{"characters", "frames", "interrupts", "scans", "routines",
-                                                 "networks",   "events", "errors",     "value"};
+constexpr std::array<std::string_view, 10> kWords{"characters", "frames",   "interrupts", "queues", "scans",
+                                                  "routines",   "networks", "events",     "errors", "value"};
 static_assert(static_cast<std::size_t>(TrackKind::Value) + 1 == kWords.size());
 
 /// All tracks of all stations.
@@ -204,6 +204,51 @@ class RunningTrack {
   TrackSpan span_{};
 };
 
+/// How many interrupts wait in a queue, from one change to the next; no track if there is never more than one, whose arrow in
+/// its own track says the same.
+class QueueTrack {
+ public:
+  QueueTrack(Tracks& tracks, std::size_t station, Queue queue)
+      : tracks_(tracks),
+        station_(station),
+        name_(kNames[static_cast<std::size_t>(queue)]) {}
+
+  void begin(Time at, int waiting) {
+    since_ = at;
+    waiting_ = waiting;
+  }
+
+  /// What has occurred within an instruction is told after it.
+  void change(Time at, int by) {
+    finish(at);
+    since_ = std::max(since_, at);
+    waiting_ = std::max(0, waiting_ + by);
+  }
+  void empty(Time at) { change(at, -waiting_); }
+
+  void finish(Time at) {
+    if (at <= since_) return;
+    TrackSpan span{.at = since_, .end = at, .text = fmt::format("{}", waiting_)};
+    span.value = waiting_;
+    first_.push_back(std::move(span));
+    is_seen_ |= waiting_ > 1;
+    if (!is_seen_) return;
+    for (TrackSpan& one : first_) tracks_.add(TrackKind::Queues, name_, station_, std::move(one));
+    first_.clear();
+  }
+
+ private:
+  static constexpr std::array<std::string_view, kQueues> kNames{"port queue", "I/O queue", "timed queue"};
+
+  Tracks& tracks_;
+  std::size_t station_;
+  std::string name_;
+  int waiting_ = 0;
+  Time since_ = 0;
+  bool is_seen_ = false;
+  std::vector<TrackSpan> first_{};  ///< up to the first of several
+};
+
 /// The tracks of one station.
 class StationTracks {
  public:
@@ -225,9 +270,11 @@ class StationTracks {
       routine_begin_.push_back(begins ? op : routine_begin_.back());
     }
     for (std::uint8_t port = 0; port < kPorts.size(); ++port) frames_.emplace_back(tracks, station, port);
+    for (std::size_t queue = 0; queue < kQueues; ++queue) queues_.emplace_back(tracks, station, static_cast<Queue>(queue));
   }
 
   void record(const TraceRecord& record) {
+    note_waiting(record);
     switch (record.kind) {
       case TraceKind::ScanBegin:
         begin_scan(record.at, record.count);
@@ -280,8 +327,11 @@ class StationTracks {
   }
 
   /// The part that is looked at begins: the scan that the CPU is in reaches into it.
-  void begin_part() {
+  void begin_part(Time at, bool with_queues) {
     in_part_ = true;
+    with_queues_ = with_queues;
+    for (std::size_t queue = 0; queue < kQueues; ++queue)
+      queues_[queue].begin(at, simulation_.cpu().state().queue[queue].count);
     reasons_.forget(interrupts_);
     if (simulation_.plc().executes()) begin_scan(simulation_.cpu().state().scan_begin, scan_now());
   }
@@ -299,6 +349,8 @@ class StationTracks {
     finish_scan(at, scan_now() + 1);
     routine_track_.finish();
     network_track_.finish();
+    if (with_queues_)
+      for (QueueTrack& queue : queues_) queue.finish(at);
     in_part_ = false;
   }
 
@@ -309,6 +361,15 @@ class StationTracks {
   const std::optional<LongestScan>& longest_scan() const { return longest_scan_; }
 
  private:
+  void note_waiting(const TraceRecord& record) {
+    if (!in_part_ || !with_queues_) return;
+    const bool comes = record.kind == TraceKind::EventOccurred;
+    if (comes || record.kind == TraceKind::ServiceBegin || record.kind == TraceKind::EventDropped)
+      queues_[static_cast<std::size_t>(find_event(record.event)->queue)].change(record.at, comes ? 1 : -1);
+    if (record.kind == TraceKind::ModeChange)
+      for (QueueTrack& queue : queues_) queue.empty(record.at);
+  }
+
   void begin_scan(Time at, std::uint64_t number) {
     if (!in_part_) return;
     end_scan(at, number);
@@ -391,7 +452,8 @@ class StationTracks {
   TraceReasons::Disabled interrupts_;  ///< where the part begins
   RunningTrack routine_track_, network_track_;
   std::vector<FrameTrack> frames_{};
-  bool in_part_ = false;
+  std::vector<QueueTrack> queues_{};
+  bool in_part_ = false, with_queues_ = false;
   TrackSpan scan_{};
   bool in_scan_ = false;
   std::uint64_t scan_number_ = 0;
@@ -454,7 +516,7 @@ class TracksReader final : public Reader {
 
   void begin_part() {
     in_part_ = true;
-    for (StationTracks& station : stations_) station.begin_part();
+    for (StationTracks& station : stations_) station.begin_part(wanted_.from, with_networks_);
     for (const MemoryRange& range : wanted_.watched)
       values_.emplace_back(tracks_, wanted_.watched_at, range, watched_state(), wanted_.from);
   }

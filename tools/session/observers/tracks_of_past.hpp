@@ -16,7 +16,20 @@
 namespace s7200::tools {
 
 /// The kinds of tracks, in the order in which they are shown.
-enum class TrackKind : std::uint8_t { Characters, Frames, Interrupts, Scans, Routines, Networks, Events, Errors, Value };
+enum class TrackKind : std::uint8_t {
+  Characters,
+  Frames,
+  Interrupts,
+  Queues,  ///< how many interrupts wait in one
+  Scans,
+  Routines,
+  Networks,
+  Events,
+  Errors,
+  Value
+};
+/// Whether its elements are numbers from one change to the next.
+constexpr bool is_of_numbers(TrackKind kind) { return kind == TrackKind::Queues || kind == TrackKind::Value; }
 std::string_view word_of(TrackKind kind);
 
 struct TracksWanted {

@@ -6,7 +6,7 @@ import { also_seen, move_on, run_to, Seen, take_over } from './session';
 import { first_after } from './timeline/scale';
 import { spans_between } from './timeline/view';
 import { moment_text, moment_word } from './words';
-import type { Span, Spans, SpanTrack } from './protocol';
+import { is_of_numbers, type Span, type Spans, type SpanTrack } from './protocol';
 
 const kElements = 3000;
 const kLeastAhead = 200e6;  // ns
@@ -81,7 +81,7 @@ function value_at(track: SpanTrack, ns: number): number | undefined {
 function differs_from(other: SpanTrack | undefined, track: SpanTrack, from_ns: number, to_ns: number): (one: Span) => boolean {
   const known = new Set((other?.spans ?? []).map(key_of));
   if (track.kind === 'value' && !other) return () => false;  // it is not known of that future
-  return (one) => (track.kind === 'value' && other
+  return (one) => (is_of_numbers(track) && other
     ? one.end_ns > from_ns && one.at_ns < to_ns && value_at(other, Math.max(one.at_ns, from_ns)) !== one.value
     : one.at_ns > from_ns && one.end_ns < to_ns && !known.has(key_of(one)));
 }

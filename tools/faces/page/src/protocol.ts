@@ -229,7 +229,7 @@ export interface Span {
 }
 
 export type TrackKind =
-  | 'characters' | 'frames' | 'interrupts' | 'scans' | 'networks' | 'routines' | 'events' | 'errors' | 'value';
+  | 'characters' | 'frames' | 'interrupts' | 'queues' | 'scans' | 'networks' | 'routines' | 'events' | 'errors' | 'value';
 
 export interface SerialFormat {
   baud: number;
@@ -251,6 +251,9 @@ export interface SpanTrack {
   format?: SerialFormat;
   spans: Span[];
 }
+
+/** Numbers from one change to the next. */
+export const is_of_numbers = (track: SpanTrack): boolean => track.kind === 'value' || track.kind === 'queues';
 
 export interface Spans {
   from_ns: number;

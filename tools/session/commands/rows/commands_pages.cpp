@@ -103,7 +103,7 @@ Json span_json(const TrackSpan& span, TrackKind kind) {
   json["count"] = span.count;
   json["busy_ns"] = span.busy;
   json["errors"] = span.errors;
-  if (kind == TrackKind::Value) {
+  if (is_of_numbers(kind)) {
     json["least"] = span.least;
     json["most"] = span.most;
   }
@@ -226,7 +226,7 @@ Reply spans(Session& session, const Words& arguments) {
   const TracksOfPast past = tracks_of_past(session.history, wanted, session.setup.stop_request);
   Reply reply{.json = {{"from_ns", wanted.from}, {"to_ns", past.to}, {"interrupted", past.interrupted}},
               .interrupted = past.interrupted};
-  if (!past.with_networks) reply.json["left_out"] = {word_of(TrackKind::Routines), word_of(TrackKind::Networks)};
+  if (!past.with_networks) reply.json["left_out"] = {word_of(TrackKind::Queues), word_of(TrackKind::Routines), word_of(TrackKind::Networks)};
   reply.json["tracks"] = Json::array();
   for (const NamedTrack& one : past.tracks) {
     reply.text += track_text(session, one);

@@ -11,7 +11,7 @@ import { compare_futures, difference_text, run_second, shown_spans } from '../fu
 import { icon } from '../icons';
 import { changed, state } from '../state';
 import { duration_text } from '../words';
-import type { SpanTrack } from '../protocol';
+import { is_of_numbers, type SpanTrack } from '../protocol';
 
 const kLabels = 118, kLabelsOfSystem = 178;
 const kPaper = { width: 718, height: 840 };
@@ -135,7 +135,7 @@ function measured(): string {
   const { a_ns, b_ns } = state.cursors;
   if (a_ns === null || b_ns === null) return '';
   const [from, to] = [Math.min(a_ns, b_ns), Math.max(a_ns, b_ns)];
-  const counts = (state.spans?.tracks ?? []).filter((track) => track.kind !== 'value').map((track) => {
+  const counts = (state.spans?.tracks ?? []).filter((track) => !is_of_numbers(track)).map((track) => {
     const inside = track.spans.filter((one) => one.at_ns >= from && one.at_ns < to);
     const count = inside.reduce((sum, one) => sum + (one.count ?? 1), 0);
     return count > 0 ? `${track.name} ${count}` : '';

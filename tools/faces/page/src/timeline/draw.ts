@@ -1,6 +1,6 @@
 // Draws tracks on a canvas. What is narrower than a pixel is added up in its column, and trouble is drawn last and at least two
 // pixels wide, so that a lost character is seen at every zoom.
-import type { SerialFormat, Span, SpanTrack, Spans } from '../protocol';
+import { is_of_numbers, type SerialFormat, type Span, type SpanTrack, type Spans } from '../protocol';
 import { without_turns } from '../dom';
 import { first_after, ns_at, step_of, x_of, type Scale } from './scale';
 import { clock_text, duration_text, kAsClock, kInSeconds, moment_text, with_times } from '../words';
@@ -8,7 +8,7 @@ import { clock_text, duration_text, kAsClock, kInSeconds, moment_text, with_time
 export const kRuler = 22, kGap = 3;
 
 const kHeights: Record<SpanTrack['kind'], number> = {
-  characters: 22, frames: 18, interrupts: 15, scans: 13, networks: 13, routines: 13, events: 11, errors: 11, value: 18,
+  characters: 22, frames: 18, interrupts: 15, queues: 15, scans: 13, networks: 13, routines: 13, events: 11, errors: 11, value: 18,
 };
 const kWave = 36;
 
@@ -33,7 +33,7 @@ export function rows_of(spans: Spans | null, scrolled: number): Row[] {
   let top = kRuler + kGap - scrolled;
   const tracks = spans?.tracks ?? [];
   return [...tracks.filter(is_of_errors), ...tracks.filter((one) => !is_of_errors(one))].map((track) => {
-    const height = track.kind === 'value' && !is_bit(track) ? kWave : kHeights[track.kind] ?? 16;
+    const height = is_of_numbers(track) && !is_bit(track) ? kWave : kHeights[track.kind] ?? 16;
     const row = { track, top, height };
     top += height + kGap;
     return row;
@@ -352,7 +352,7 @@ export function draw(c: CanvasRenderingContext2D, view: View, theme: Theme): voi
   for (const row of view.rows) {
     if (row.top + row.height < kRuler || row.top > view.height) continue;
     draw_band(c, view, row, theme);
-    if (row.track.kind === 'value') draw_value(c, view, row, theme);
+    if (is_of_numbers(row.track)) draw_value(c, view, row, theme);
     else draw_spans(c, view, row, theme);
   }
   draw_ruler(c, view, theme);

@@ -3,7 +3,7 @@
 import { take_over } from '../session';
 import { notice, show_dialog, state } from '../state';
 import { spans_between, window_of } from './view';
-import type { Span, SpanTrack } from '../protocol';
+import { is_of_numbers, type Span, type SpanTrack } from '../protocol';
 
 const kElements = 20000;
 
@@ -74,7 +74,7 @@ function touches(one: Span, from_ns: number, to_ns: number): boolean {
 
 export function measured(track: SpanTrack, from_ns: number, to_ns: number): Measured[] {
   const name = track.station ? `${track.station} ${track.name}` : track.name;
-  if (track.kind === 'value') {
+  if (is_of_numbers(track)) {
     const seen = track.spans.filter((one) => one.end_ns > from_ns && one.at_ns < to_ns);
     return seen.length === 0 ? [] : [value_track(name, seen, from_ns, to_ns)];
   }
