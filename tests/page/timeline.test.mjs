@@ -409,6 +409,7 @@ test('the watchdog that ends the past is found, and the longest scan however sho
   await page.keyboard.press('e');
   await page.waitForSelector('.notice:has-text("watchdog")');
   await page.waitForSelector('.lamp.fault.on');
+  assert.match(await page.innerText('.status-bar .place'), /^STOP, fatal error 3 in main, line \d$/);
   await page.keyboard.press('Shift+C');
   await said(/lasted 3[\d.]+ ms: scan 50\./);
   assert.deepEqual(page.troubles, []);

@@ -18,8 +18,9 @@ function place(): string {
   const past = state.past;
   if (!past) return '';
   if (past.mode === 'off') return 'the PLC has no power';
-  if (past.line === null) return past.fatal ? `STOP, fatal error ${past.fatal}` : 'STOP';
-  return `${past.routine ?? ''}, line ${past.line}`;
+  const where = past.line === null ? '' : `${past.routine ?? ''}, line ${past.line}`;
+  if (past.mode !== 'STOP') return where;
+  return past.fatal ? `STOP, fatal error ${past.fatal}${where && ` in ${where}`}` : 'STOP';
 }
 
 export function status_bar(): Part {
