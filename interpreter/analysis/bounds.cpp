@@ -522,9 +522,11 @@ class BoundsBuilder {
     }
     if (!answers) return {};
     answer.loops = {loops.begin(), loops.end()};
-    const auto silence = longest_silence(port, waits);
-    answer.silence_is_known = silence.has_value();
     const std::set<std::uint8_t> own = of_answer(port, waits, with_called(by_characters));
+    auto silence = longest_silence(port, waits);
+    if (!std::ranges::all_of(own, [&](std::uint8_t event) { return !event::is_timed(event) || comes_once(event); }))
+      silence.reset();
+    answer.silence_is_known = silence.has_value();
     const auto is_other = [&](const Bounds::OfEvent& event) { return !own.contains(event.event); };
     for (const Bounds::OfEvent& event : bounds_.events)
       if (is_other(event) && !has_period(event)) answer.of_others.push_back(event.event);
@@ -559,6 +561,20 @@ class BoundsBuilder {
     }
     own.merge(restarted.empty() ? timed : restarted);
     return own;
+  }
+  /// Whether the routines of a timed interrupt surely detach it. Of one that comes again the program may wait for several.
+  bool comes_once(std::uint8_t event) const {
+    const auto use = std::ranges::find(calls_.events, event, &EventUse::number);
+    const std::vector<bool> nothing(facts_.program.ops.size());
+    const auto number_of = [&](const Op& op) { return static_cast<std::uint32_t>(&op - facts_.program.ops.data()); };
+    KeptAway detached(facts_.program, facts_.flow, nothing,
+                      {.opens = [](const Op&) { return false; },
+                       .closes = [&](const Op& op) {
+                         return std::ranges::find(use->detached, number_of(op)) != use->detached.end();
+                       }});
+    return std::ranges::all_of(use->attached, [&](const Attachment& one) {
+      return one.routine && detached.behind({.routine = *one.routine});
+    });
   }
   bool transmits(const std::set<std::uint32_t>& routines, std::size_t port) const {
     return std::ranges::any_of(routines, [&](std::uint32_t routine) {

@@ -307,6 +307,19 @@ TEST(Bounds, AnAnswerWaitsAtLeastForTheShortestTimedInterval) {
   EXPECT_EQ(time("", "214"), *time("MOVB 5, SMB34\n", "214") - 2 * 10 * us) << "SMB34 is 0 then; without the MOVB";
 }
 
+TEST(Bounds, AnAnswerHasNoneWhereSeveralTimedInterruptsMayMakeTheSilence) {
+  const std::string once = slave_with("MOVB 5, SMB34\n", "");
+  const auto changed = [&](std::string_view from, std::string_view to) {
+    std::string text = once;
+    return bounds(text.replace(text.find(from), from.size(), to)).answers.at(0);
+  };
+  EXPECT_TRUE(changed("DTCH 10", "DTCH 10").time);
+  const auto third = changed("S M0.0, 1\nDTCH 10\n", "INCW VW30\nLDW>= VW30, 3\nS M0.0, 1\nDTCH 10\n");
+  EXPECT_FALSE(third.time);
+  EXPECT_FALSE(third.silence_is_known);
+  EXPECT_FALSE(changed("DTCH 10\n", "").time);
+}
+
 TEST(Bounds, AnAnswerWaitsWhereInterruptsAreDisabled) {
   const auto time = [](std::string_view main) { return bounds(slave_with("MOVB 5, SMB34\n", main)).answers.at(0).time; };
   EXPECT_EQ(time("LD SM0.0\nDISI\nINCW VW2\nENI\n"), *time("LD SM0.0\nINCW VW2\n") + 2 * 20 * us + 2 * 20 * us)

@@ -159,7 +159,9 @@ std::string event_text(const Inspection& inspection, const Both& both, std::size
 
 std::optional<std::string> why_no_answer_time(const Bounds& bounds, const Bounds::OfAnswer& answer) {
   if (answer.time) return {};
-  if (!answer.silence_is_known) return "how long the program waits for silence is not known";
+  if (!answer.silence_is_known)
+    return "how long the program waits for silence is not known: SMB34, SMB35 or the time-out of RCV is no constant, or a timed "
+           "interrupt comes again and again, of which it may count several";
   if (const auto disabled = why_disabled(bounds, "interrupts")) return disabled;
   if (!answer.of_others.empty()) return not_known_how_often(answer.of_others);
   return fmt::format("interrupts can need {} of the time", percent(bounds.load));
