@@ -78,9 +78,7 @@ class MemoryInquiry {
   /// The bits that decided the rung in which the history stands are in `next()`.
   void look_at_rung() {
     next_.clear();
-    LastWrite nothing;
-    nothing.moment = history_.now();
-    rung_in_front_of(nothing);
+    rung_in_front_of(history_.now(), {});
   }
 
   const std::vector<MemoryRange>& next() const { return next_; }
@@ -99,7 +97,7 @@ class MemoryInquiry {
       next_ = parameters_for(*write.call, range, true);
       return fmt::format("{}, as an output of {}", by, named_in_sentence(*write.call, program()));
     }
-    const std::string contacts = rung_in_front_of(write);
+    const std::string contacts = rung_in_front_of(write.moment, write.by->op);
     if (const auto source = moved_to(write.by->op, range)) next_.insert(next_.begin(), *source);
     if (range.area == Area::L && program().ops[write.by->op].instruction->structure == Structure::Call)
       next_ = parameters_for(write.by->op, range, false);
@@ -146,16 +144,16 @@ class MemoryInquiry {
     return range;
   }
 
-  /// The contacts that decided an instruction; the history stands in front of it then.
-  std::string rung_in_front_of(const LastWrite& write) {
+  /// The contacts that decided what comes at a moment, where the history stands then; `op` is none of them.
+  std::string rung_in_front_of(const Moment& moment, std::optional<std::uint32_t> op) {
     forced_.clear();
-    history_.go_to(write.moment);
+    history_.go_to(moment);
     RungReader reader(program(), station_, stop_request_);
-    if (history_.go_to(here().cpu().state().scan_begin)) history_.play(reader, write.moment);
-    history_.go_to(write.moment);
+    if (history_.go_to(here().cpu().state().scan_begin)) history_.play(reader, moment);
+    history_.go_to(moment);
     const auto cause = reader.reasons.cause();
     if (cause && cause->contacts) {
-      next_ = decisive(cause->looked_at, write);
+      next_ = decisive(cause->looked_at, op);
       forced_ = forced_text(contacts_of_top(program(), cause->looked_at));
     }
     return reader.reasons.contacts();
@@ -177,12 +175,12 @@ class MemoryInquiry {
   /// The bits of the contacts that decided a rung: of contacts in series without power those that have none, of those in
   /// parallel with power those that have it, otherwise all of them; only what the program itself decides: no input, special
   /// memory, timer, counter or comparison.
-  std::vector<MemoryRange> decisive(const std::vector<InstructionRecord>& contacts, const LastWrite& write) const {
+  std::vector<MemoryRange> decisive(const std::vector<InstructionRecord>& contacts,
+                                    std::optional<std::uint32_t> decided) const {
     std::vector<MemoryRange> bits;
     for (const InstructionRecord& contact : rung_decided_by(contacts)) {
       const Op& op = program().ops[contact.op];
-      const bool is_itself = write.by && write.by->op == contact.op;
-      if (!is_bit_contact(op) || op[0].pointer || is_itself) continue;
+      if (!is_bit_contact(op) || op[0].pointer || decided == contact.op) continue;
       const auto bit = bit_of(op[0]);
       if (bit && std::ranges::none_of(bits, [&](const MemoryRange& one) { return is_same_place(one, *bit); }))
         bits.push_back(*bit);
